@@ -1,0 +1,11 @@
+# SPDX-License-Identifier: Apache-2.0
+include(GoogleTest)
+
+# penumbra_test(NAME SOURCES a_test.cpp ... LIBRARIES lib ...): one GoogleTest program, its cases known to ctest.
+function(penumbra_test name)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES")
+    add_executable(${name} ${arg_SOURCES})
+    target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} GTest::gtest_main)
+    penumbra_compile_options(${name})
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything a host includes.
+#pragma once
+
+#include "penumbra/caster.h"
+#include "penumbra/device.h"
+#include "penumbra/light.h"
+#include "penumbra/math.h"
+#include "penumbra/parameters.h"
+#include "penumbra/technique.h"
+#include "penumbra/view.h"

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one interface. Every technique answers one question: for each pixel, what fraction of this light does the surface
+// there see?
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "penumbra/caster.h"
+#include "penumbra/device.h"
+#include "penumbra/light.h"
+#include "penumbra/parameters.h"
+#include "penumbra/view.h"
+
+namespace penumbra {
+
+/// The answer: visibility in [0, 1], 1 where the whole light is seen or the pixel shows no surface, 0 in umbra. The
+/// fraction is of the light's emitting area above the surface's horizon (a distant light's and a sphere's: of the solid
+/// angle that they show), with no cosine and no distance weight. Where none of the light is above the horizon it is 0.
+class VisibilityBuffer {
+  public:
+    /// Makes its own texture: GL_R32F, or GL_RGBA16F (alpha unused) for a textured light. Both sizes >= 1.
+    VisibilityBuffer(Device& device, int width_px, int height_px, bool colored = false);
+    VisibilityBuffer(VisibilityBuffer&&) noexcept;
+    VisibilityBuffer& operator=(VisibilityBuffer&&) noexcept;
+    ~VisibilityBuffer();
+
+    int width_px() const;
+    int height_px() const;
+    bool colored() const;
+    std::uint32_t texture() const;  ///< owned by the buffer
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+struct ShadowInputs {
+    View view;
+    AreaLight light;
+    std::span<const Caster> casters;
+};
+
+struct Statistic {
+    std::string_view name;  ///< "maps", "silhouette edges", ...
+    double value = 0;
+    std::string_view unit = "";
+};
+
+/// Device time of a pass, from timer queries. Taken without waiting, so that it lags some frames behind.
+struct PassTime {
+    std::string_view name;
+    double milliseconds = 0;
+};
+
+struct Statistics {
+    std::vector<Statistic> counts;
+    std::vector<PassTime> passes;
+};
+
+/// How an intermediate buffer is best shown.
+struct InspectedTexture {
+    std::string_view name;      ///< "depth map", "shadow-width map", ...
+    std::uint32_t texture = 0;  ///< GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY, owned by the technique
+    int layers = 1;
+    float black = 0;  ///< the value to show as black
+    float white = 1;  ///< the value to show as white
+};
+
+class InspectionVisitor {
+  public:
+    virtual ~InspectionVisitor() = default;
+    virtual void texture(const InspectedTexture& texture) = 0;
+};
+
+/// One way to answer. Keeps what it needs between frames; destroying it frees everything.
+class Technique {
+  public:
+    virtual ~Technique() = default;
+
+    /// Visits every parameter, in the order in which a person wants to read them.
+    virtual void describe(ParameterVisitor& visitor) = 0;
+
+    /// Fills `out`, which has the view's size and is colored where the light is textured. Equal inputs give equal bits.
+    virtual void render(const ShadowInputs& inputs, VisibilityBuffer& out) = 0;
+
+    /// Visits the intermediate buffers of the last render.
+    virtual void inspect(InspectionVisitor&) const {}
+
+    virtual Statistics statistics() const { return {}; }
+};
+
+struct TechniqueInfo {
+    std::string_view name;     ///< as on the command line: "hard"
+    std::string_view summary;  ///< one line
+};
+
+/// All techniques of the catalog, in the order in which they are listed.
+std::span<const TechniqueInfo> techniqueCatalog();
+
+/// Makes a technique on `device`, which must outlive it. Throws Error::Kind::unknownName, listing the names there are.
+std::unique_ptr<Technique> makeTechnique(Device& device, std::string_view name);
+
+}  // namespace penumbra

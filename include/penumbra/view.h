@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "penumbra/math.h"
+
+namespace penumbra {
+
+/// How the values in a depth texture map to clip space. Stated by the host, never guessed.
+struct DepthConvention {
+    enum class Range {
+        zeroToOne,      ///< clip-space z/w in [0, 1], stored as it is (glClipControl with GL_ZERO_TO_ONE)
+        minusOneToOne,  ///< clip-space z/w in [-1, 1], stored as 0.5 * z/w + 0.5 (OpenGL's default)
+    };
+    Range range = Range::zeroToOne;
+    /// True: larger is nearer and 0 is background. False: smaller is nearer and 1 is background. Whether the far
+    /// plane is finite or infinite follows from `View::clipFromView` and need not be said.
+    bool reversed = true;
+};
+
+/// The receivers: what the host's camera sees, one surface point a pixel.
+struct View {
+    int width_px = 0;   ///< of every texture below, >= 1
+    int height_px = 0;  ///< >= 1
+
+    Mat4 viewFromWorld;  ///< rigid: rotation and translation only
+    Mat4 clipFromView;   ///< perspective or orthographic, finite or infinite; must be invertible
+
+    /// GL_TEXTURE_2D with a depth format, borrowed, single-sampled, sampled with texelFetch.
+    std::uint32_t depthTexture = 0;
+    DepthConvention depth;
+
+    /// GL_TEXTURE_2D, borrowed, optional (0: normals are derived from the depth). RGB is the *geometric* world-space
+    /// normal of the surface, unit length, on the side that the camera sees. Interpolated shading normals make
+    /// surfaces shadow themselves near the terminator.
+    std::uint32_t normalTexture = 0;
+
+    /// GL_TEXTURE_2D, borrowed, optional (0: everything receives). A pixel whose red channel is below 0.5 belongs to
+    /// a surface that receives no shadow: its visibility is 1.
+    std::uint32_t receiverTexture = 0;
+};
+
+}  // namespace penumbra

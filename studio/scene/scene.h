@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene on the CPU: what was loaded or generated, and what it is at one moment. Knows no OpenGL.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "penumbra/light.h"
+
+namespace penumbra::studio {
+
+/// An axis-aligned box in world space; empty when min.x > max.x.
+struct Bounds {
+    glm::vec3 min{1}, max{-1};
+    bool empty() const { return min.x > max.x; }
+    void include(const glm::vec3& point);
+    glm::vec3 center() const { return 0.5f * (min + max); }
+    float radius() const { return empty() ? 0 : 0.5f * glm::length(max - min); }
+};
+
+/// A decoded picture: 8-bit sRGB-encoded colour with linear alpha, rows from the top.
+struct Picture {
+    std::string name;
+    int width_px = 0, height_px = 0;
+    std::vector<std::uint8_t> rgba;
+};
+
+/// A picture with its sampler; the enums are glTF's (and OpenGL's) numbers.
+struct Texture {
+    int picture = -1;
+    int minFilter = 9987, magFilter = 9729;  // GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR
+    int wrapS = 10497, wrapT = 10497;        // GL_REPEAT
+};
+
+struct Material {
+    enum class Alpha { opaque, mask };  // glTF's BLEND is loaded as opaque, with a warning
+    std::string name;
+    glm::vec4 baseColor{1};       ///< linear; alpha multiplies the texture's
+    int baseColorTexture = -1;    ///< index into Scene::textures; its UV set and transform are baked into Mesh::uvs
+    Alpha alpha = Alpha::opaque;
+    float alphaCutoff = 0.5f;
+    bool doubleSided = false;
+    bool unlit = false;
+};
+
+struct MorphTarget {
+    std::vector<glm::vec3> positionDeltas;  ///< one a vertex, or empty
+    std::vector<glm::vec3> normalDeltas;    ///< one a vertex, or empty
+};
+
+/// A triangle list of one material (a glTF primitive, whatever its stored mode).
+struct Mesh {
+    std::string name;
+    int material = 0;  ///< index into Scene::materials, always valid
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;  ///< one a vertex, unit; flat ones are computed where the file has none
+    std::vector<glm::vec2> uvs;      ///< one a vertex, or empty where the material has no texture
+    std::vector<std::uint32_t> indices;
+    std::vector<MorphTarget> morphTargets;
+    std::vector<float> morphWeights;         ///< default weights, one a target
+    std::vector<glm::u16vec4> joints;        ///< one a vertex, or empty; up to four influences (the largest)
+    std::vector<glm::vec4> jointWeights;     ///< one a vertex, or empty; sums to 1
+    bool deforms() const { return !morphTargets.empty() || !joints.empty(); }
+};
+
+/// How much light leaves the light. Linear Rec. 709.
+struct Emission {
+    enum class Unit {
+        nits,     ///< radiance-like: luminance of the emitting surface
+        candela,  ///< a point light or spot of size zero
+        lux,      ///< a distant light of angle zero
+    };
+    Unit unit = Unit::nits;
+    glm::vec3 value{1};
+};
+
+struct Light {
+    std::string name;
+    AreaLight shape;       ///< in world space at the evaluated time; radianceTexture is filled in by the renderer
+    Emission emission;
+    int texture = -1;      ///< index into Scene::textures, rect lights only
+    bool castsShadow = true;
+    /// Spot lights: half-angles of the cone about -Z in which light falls off from full to none.
+    std::optional<std::array<float, 2>> cone_rad;  ///< {inner, outer}
+};
+
+struct Camera {
+    std::string name;
+    glm::mat4 worldFromCamera{1};  ///< rigid; looks along -Z, +Y up
+    float yfov_rad = 0.8f;         ///< perspective
+    std::optional<float> orthographicHeight_m;  ///< whole height of the picture; orthographic where set
+};
+
+/// A mesh placed in the world at one moment.
+struct Instance {
+    int mesh = 0;                  ///< index into Scene::meshes
+    int node = 0;                  ///< index into Scene::nodeNames, always valid
+    glm::mat4 worldFromMesh{1};
+    bool casts = true, receives = true;
+    /// Where the mesh deforms: its vertices at this moment, in mesh space (a skin's include worldFromMesh = identity).
+    std::vector<glm::vec3> positions, normals;
+};
+
+/// Everything at one moment. Instances and their order are the same at all times.
+struct SceneMoment {
+    double time_s = 0;
+    std::vector<glm::mat4> worldFromNode;  ///< one for each of Scene::nodeNames
+    std::vector<Instance> instances;
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;  ///< never empty: a scene without one gets one that frames everything
+    Bounds bounds;                ///< of all instances
+};
+
+struct Animation {
+    std::string name;
+    double duration_s = 0;
+};
+
+/// What was loaded, and how it moves.
+class Scene {
+  public:
+    /// What moves the scene; made by whoever made the scene.
+    class Motion {
+      public:
+        virtual ~Motion() = default;
+        virtual SceneMoment at(const Scene& scene, double time_s) const = 0;
+    };
+
+    std::string name;
+    std::vector<Picture> pictures;
+    std::vector<Texture> textures;
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<std::string> nodeNames;
+    std::vector<Animation> animations;
+    std::vector<std::string> warnings;  ///< each names the place in the file
+    std::shared_ptr<const Motion> motion;
+
+    SceneMoment at(double time_s) const { return motion->at(*this, time_s); }
+};
+
+}  // namespace penumbra::studio
