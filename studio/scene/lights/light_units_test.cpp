@@ -25,15 +25,16 @@ TEST(LightUnits, TheSun) {
     EXPECT_NEAR(radianceFromIlluminance_nits(1e5f, float(0.53 * pi / 180)) / 1.4880e9, 1, 1e-4);
 }
 
-// An isotropic point of I candela emits 4 pi I lumen; a sphere of luminance L emits pi L from each m^2: 4 pi^2 r^2 L.
+// An isotropic point of I candela emits 4 pi I lumen; a sphere of luminance L emits pi L from each m^2: 4
+// pi^2 r^2 L.
 TEST(LightUnits, ASphereEmitsTheFluxOfItsPoint) {
     const double intensity_cd = 25, radius_m = 0.3;
     const double radiance_nits = radianceFromIntensity_nits(float(intensity_cd), float(radius_m));
     EXPECT_NEAR(4 * pi * pi * radius_m * radius_m * radiance_nits, 4 * pi * intensity_cd, 1e-4);
 }
 
-// A flat one-sided light of luminance L and area A emits pi L A. Integrating the illuminance that a small disk gives
-// over the hemisphere of radius R around it must give back the same: E(t) = L A cos t / R^2.
+// A flat one-sided light of luminance L and area A emits pi L A. Integrating the illuminance that a small
+// disk gives over the hemisphere of radius R around it must give back the same: E(t) = L A cos t / R^2.
 TEST(LightUnits, AFlatLightEmitsPiTimesLuminanceTimesArea) {
     const double radius_m = 0.1, distance_m = 20, illuminance_lux = 3;
     // Seen face on from afar, the disk is a distant light of angle 2 atan(r/d).
@@ -44,7 +45,8 @@ TEST(LightUnits, AFlatLightEmitsPiTimesLuminanceTimesArea) {
     const int steps = 2000;
     for (int i = 0; i < steps; ++i) {
         const double t = (i + 0.5) / steps * pi / 2;
-        flux_lm += illuminance_lux * std::cos(t) * 2 * pi * std::sin(t) * distance_m * distance_m * (pi / 2 / steps);
+        flux_lm +=
+            illuminance_lux * std::cos(t) * 2 * pi * std::sin(t) * distance_m * distance_m * (pi / 2 / steps);
     }
     EXPECT_NEAR(flux_lm / (pi * radiance_nits * area_m2), 1, 1e-4);
 }
