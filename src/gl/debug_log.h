@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string_view>
+
+#include "penumbra/device.h"
+
+namespace penumbra::gl {
+
+/// Passes the driver's KHR_debug messages on and counts the severe ones. Installs itself only where the host has no
+/// callback of its own; stays at its address while it is installed.
+class DebugLog {
+  public:
+    explicit DebugLog(std::function<void(LogLevel, std::string_view)> log);
+    DebugLog(const DebugLog&) = delete;
+    DebugLog& operator=(const DebugLog&) = delete;
+    ~DebugLog();
+
+    void write(LogLevel level, std::string_view message) const {
+        if (log_) log_(level, message);
+    }
+    void receive(unsigned type, unsigned severity, std::string_view message);
+    int severeMessageCount() const { return severeMessages_; }
+
+  private:
+    std::function<void(LogLevel, std::string_view)> log_;
+    std::atomic<int> severeMessages_ = 0;
+    bool installed_ = false;
+};
+
+}  // namespace penumbra::gl

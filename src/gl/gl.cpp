@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/gl/gl.h"
+
+#include <string>
+
+#include "penumbra/device.h"
+
+namespace penumbra::gl {
+
+void label(GLenum kind, GLuint name, std::string_view text) {
+    if (!text.empty()) glObjectLabel(kind, name, GLsizei(text.size()), text.data());
+}
+
+void checkAllocated(std::string_view what) {
+    if (glGetError() == GL_OUT_OF_MEMORY) {
+        throw Error(Error::Kind::outOfMemory,
+                    "the OpenGL device has no room for " + std::string(what) + "; use smaller sizes");
+    }
+}
+
+DebugGroup::DebugGroup(std::string_view name) {
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, GLsizei(name.size()), name.data());
+}
+
+DebugGroup::~DebugGroup() { glPopDebugGroup(); }
+
+}  // namespace penumbra::gl

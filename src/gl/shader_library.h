@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace penumbra::gl {
+
+struct ProgramState;
+
+/// A shader file in the binary; `path` is relative to the repository's root.
+struct EmbeddedShader {
+    std::string_view path;
+    std::string_view text;
+};
+
+/// Where programs get their source from, and how they get it anew.
+class ShaderLibrary {
+  public:
+    /// `sourceRoot` empty: the embedded texts; else files beneath it.
+    explicit ShaderLibrary(std::filesystem::path sourceRoot) : sourceRoot_(std::move(sourceRoot)) {}
+
+    /// Adds a target's files. Their storage must outlive the library (they are in the binary).
+    void add(std::span<const EmbeddedShader> shaders);
+
+    /// A file with all its `#include "path/from/root"` expanded once each, and the names that its `#line`
+    /// directives number.
+    struct Source {
+        std::string text;
+        std::vector<std::string> files;
+    };
+    /// `defines` are names, or "NAME value". Throws Error::Kind::shader if a file is missing.
+    Source expand(std::string_view path, std::span<const std::string> defines) const;
+
+    /// Compiles every living program again. One that fails keeps its last good version; their messages are thrown
+    /// together as Error::Kind::shader.
+    void reload();
+
+    void track(const std::shared_ptr<ProgramState>& program);
+
+  private:
+    std::string read(std::string_view path) const;
+    void expandInto(Source& source, std::string_view path, std::span<const std::string> defines) const;
+
+    std::filesystem::path sourceRoot_;
+    std::vector<EmbeddedShader> embedded_;
+    std::vector<std::weak_ptr<ProgramState>> programs_;
+};
+
+}  // namespace penumbra::gl

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hand-written list: name -> factory. Adding a technique is adding a line here.
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "penumbra/technique.h"
+#include "src/techniques/shadow_map/hard.h"
+
+namespace penumbra {
+namespace {
+
+struct Entry {
+    TechniqueInfo info;
+    std::unique_ptr<Technique> (*make)(Device&);
+};
+
+template <typename T>
+std::unique_ptr<Technique> make(Device& device) {
+    return std::make_unique<T>(device);
+}
+
+constexpr std::array entries = {
+    Entry{{"hard", "one shadow map from the light's centre: no penumbra (Williams 1978)"}, make<HardShadowMap>},
+};
+
+constexpr auto infos = [] {
+    std::array<TechniqueInfo, entries.size()> result;
+    std::ranges::transform(entries, result.begin(), &Entry::info);
+    return result;
+}();
+
+}  // namespace
+
+std::span<const TechniqueInfo> techniqueCatalog() { return infos; }
+
+std::unique_ptr<Technique> makeTechnique(Device& device, std::string_view name) {
+    std::string names;
+    for (const Entry& entry : entries) {
+        if (entry.info.name == name) return entry.make(device);
+        names += (names.empty() ? "" : ", ") + std::string(entry.info.name);
+    }
+    throw Error(Error::Kind::unknownName, "there is no technique '" + std::string(name) + "'; there are: " + names);
+}
+
+}  // namespace penumbra

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Looking things up in depth maps (depth_map.h). Includer defines DEPTH_MAP_UNIT and DEPTH_MAP_BLOCK.
+#include "src/techniques/common/light_camera_io.h"
+
+layout(binding = DEPTH_MAP_UNIT) uniform sampler2DArray depthMaps;
+layout(std430, binding = DEPTH_MAP_BLOCK) readonly buffer LightCameras { LightCameraConstants lightCameras[]; };
+
+// A point as a light camera sees it.
+struct MapPoint {
+    vec3 posFace;    // metres; z along the camera's axis
+    vec2 uv;         // [0, 1] over the window
+    float texel_m;   // a texel's size at the point's depth
+};
+
+MapPoint mapPoint(int camera, vec3 posLight) {
+    LightCameraConstants c = lightCameras[camera];
+    MapPoint point;
+    point.posFace = (c.faceFromLight * vec4(posLight, 1.0)).xyz;
+    bool orthographic = c.depth.z == 1.0;
+    vec2 place = orthographic ? point.posFace.xy : point.posFace.xy / point.posFace.z;
+    point.uv = (place - c.window.xy) * c.window.zw;
+    point.texel_m = c.depth.w * (orthographic ? 1.0 : point.posFace.z);
+    return point;
+}
+
+// Whether the point lies in front of the camera and in its window.
+bool isInWindow(int camera, MapPoint point) {
+    return (lightCameras[camera].depth.z == 1.0 || point.posFace.z > 0.0) && all(greaterThanEqual(point.uv, vec2(0.0))) &&
+           all(lessThan(point.uv, vec2(1.0)));
+}
+
+// Linear depth along the camera's axis, in metres, from the reversed depth that is stored; no caster is infinitely far.
+float depthFace_m(int camera, float stored) {
+    vec4 depth = lightCameras[camera].depth;
+    if (stored == 0.0) return uintBitsToFloat(0x7f800000u);
+    return depth.z == 1.0 ? depth.y - stored * (depth.y - depth.x) : depth.x / stored;
+}
+
+// Where the plane through the point with the normal is seen in the direction of another place in the map, `uv`.
+// Compared with this depth, a plane never shadows itself, however steeply the light falls on it. Near the plane's
+// horizon the answer is bounded by `farthest_m` before and behind the point.
+float receiverPlaneDepth_m(int camera, MapPoint point, vec3 normalFace, vec2 uv, float farthest_m) {
+    LightCameraConstants c = lightCameras[camera];
+    vec2 place = uv / c.window.zw + c.window.xy;
+    float depth_m;
+    if (c.depth.z == 1.0) {
+        vec2 slope = -normalFace.xy / normalFace.z;
+        depth_m = point.posFace.z + dot(slope, place - point.posFace.xy);
+    } else {
+        float across = dot(normalFace, point.posFace);
+        float along = dot(normalFace, vec3(place, 1.0));
+        depth_m = across * along > 0.0 ? across / along : point.posFace.z + farthest_m;
+    }
+    return clamp(depth_m, point.posFace.z - farthest_m, point.posFace.z + farthest_m);
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "src/device_internals.h"
+#include "src/gl/buffer.h"
+#include "src/gl/framebuffer.h"
+#include "src/gl/program.h"
+#include "src/gl/texture.h"
+#include "src/gl/vertex_array.h"
+#include "src/techniques/common/depth_map_io.h"
+#include "src/techniques/common/light_camera.h"
+
+namespace penumbra {
+
+/// The nearest caster as light cameras see it: one layer a camera, reversed 32-bit float depth (Williams 1978).
+/// Shaders read it through depth_map.glsl.
+class DepthMap {
+  public:
+    explicit DepthMap(Device& device);
+
+    /// Draws every caster that casts into one layer for each camera, leaving out those a camera cannot see.
+    /// Throws Error::Kind::badArgument where the device has no room for so many or so large maps.
+    void render(std::span<const Caster> casters, const LightSpaceScene& scene, std::span<const LightCamera> cameras,
+                int mapSize_px);
+
+    /// Binds the maps to texture unit `unit` and their cameras to storage block `block`.
+    void bind(unsigned unit, unsigned block) const;
+
+    const gl::Texture& texture() const { return maps_; }
+    int count() const { return count_; }
+
+  private:
+    void allocate(int mapSize_px, int layers);
+    void draw(const Caster& caster, int instances) const;
+
+    Device::Internals& device_;
+    gl::Program opaque_, masked_;
+    gl::VertexArrayHandle vertices_;
+    gl::Texture maps_;
+    gl::Framebuffer framebuffer_;
+    gl::StorageArray<LightCameraConstants> cameras_;
+    gl::StorageArray<CasterConstants> casters_;
+    gl::StorageArray<int> layerLists_;
+    int count_ = 0;
+};
+
+}  // namespace penumbra

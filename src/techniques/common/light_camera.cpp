@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/techniques/common/light_camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_access.hpp>
+#include <limits>
+#include <optional>
+
+#include "src/techniques/common/glm_types.h"
+#include "src/techniques/common/view_constants.h"
+
+namespace penumbra {
+namespace {
+
+using Polygon = ReceiverRegion::Polygon;
+
+/// The half-space of points p with dot(plane, (p, 1)) >= 0.
+using Plane = glm::dvec4;
+
+double signedDistance(const Plane& plane, const glm::dvec3& p) { return glm::dot(plane, glm::dvec4(p, 1)); }
+
+/// Sutherland and Hodgman 1974.
+Polygon clip(const Polygon& polygon, const Plane& plane) {
+    Polygon result;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec3& a = polygon[i];
+        const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
+        const double da = signedDistance(plane, a);
+        const double db = signedDistance(plane, b);
+        if (da >= 0) result.push_back(a);
+        if ((da >= 0) != (db >= 0)) result.push_back(glm::mix(a, b, da / (da - db)));
+    }
+    return result;
+}
+
+std::vector<Polygon> clip(std::vector<Polygon> polygons, std::span<const Plane> planes) {
+    for (const Plane& plane : planes) {
+        for (Polygon& polygon : polygons) polygon = clip(polygon, plane);
+        std::erase_if(polygons, [](const Polygon& polygon) { return polygon.empty(); });
+    }
+    return polygons;
+}
+
+/// The faces of a hexahedron whose corner i has bit 0 for x, bit 1 for y, bit 2 for z.
+std::vector<Polygon> facesOf(const BoxCorners& c) {
+    return {{c[0], c[2], c[6], c[4]}, {c[1], c[5], c[7], c[3]}, {c[0], c[4], c[5], c[1]},
+            {c[2], c[3], c[7], c[6]}, {c[0], c[1], c[3], c[2]}, {c[4], c[6], c[7], c[5]}};
+}
+
+/// Inward planes of the hexahedron's faces, oriented by its centre. A flat box has planes without a direction, which
+/// clip nothing.
+std::vector<Plane> planesOf(const BoxCorners& corners) {
+    glm::dvec3 center(0);
+    for (const glm::dvec3& corner : corners) center += corner / 8.0;
+    std::vector<Plane> planes;
+    for (const Polygon& face : facesOf(corners)) {
+        const glm::dvec3 normal = glm::cross(face[2] - face[0], face[3] - face[1]);
+        const double length = glm::length(normal);
+        if (length == 0) continue;
+        Plane plane(normal / length, -glm::dot(normal / length, face[0]));
+        if (signedDistance(plane, center) < 0) plane = -plane;
+        planes.push_back(plane);
+    }
+    return planes;
+}
+
+BoxCorners cornersOf(const Box& box, const glm::dmat4& targetFromBox) {
+    BoxCorners corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const glm::dvec3 corner((i & 1) ? box.max.x : box.min.x, (i & 2) ? box.max.y : box.min.y,
+                                (i & 4) ? box.max.z : box.min.z);
+        corners[i] = targetFromBox * glm::dvec4(corner, 1);
+    }
+    return corners;
+}
+
+/// The view frustum in light space, cut off at `far_m` where its far plane lies beyond (at infinity, say).
+struct Frustum {
+    BoxCorners corners;
+    bool contains(const BoxCorners& box) const {
+        const std::vector<Plane> planes = planesOf(corners);
+        return std::ranges::all_of(box, [&](const glm::dvec3& p) {
+            return std::ranges::all_of(planes, [&](const Plane& plane) { return signedDistance(plane, p) >= 0; });
+        });
+    }
+};
+
+Frustum frustumOf(const View& view, const glm::dmat4& lightFromWorld, double far_m) {
+    const glm::dmat4 viewFromClip = glm::inverse(toGlm(view.clipFromView));
+    const glm::dmat4 lightFromView = lightFromWorld * glm::inverse(toGlm(view.viewFromWorld));
+    const double nearZ = view.depth.reversed ? 1
+                         : view.depth.range == DepthConvention::Range::zeroToOne ? 0 : -1;
+    const double middleZ = view.depth.reversed && view.depth.range == DepthConvention::Range::minusOneToOne ? 0 : 0.5;
+    Frustum frustum;
+    for (std::size_t i = 0; i < 4; ++i) {
+        // Two points on each edge of the frustum; the far one is moved along the edge to view-space z = -far_m.
+        const glm::dvec2 ndc((i & 1) ? 1 : -1, (i & 2) ? 1 : -1);
+        const glm::dvec4 nearClip = viewFromClip * glm::dvec4(ndc, nearZ, 1);
+        const glm::dvec4 middleClip = viewFromClip * glm::dvec4(ndc, middleZ, 1);
+        const glm::dvec3 nearView = glm::dvec3(nearClip) / nearClip.w;
+        const glm::dvec3 direction = glm::dvec3(middleClip) / middleClip.w - nearView;
+        const double farther = std::max(0.0, (-far_m - nearView.z) / direction.z);
+        frustum.corners[i] = lightFromView * glm::dvec4(nearView, 1);
+        frustum.corners[i + 4] = lightFromView * glm::dvec4(nearView + farther * direction, 1);
+    }
+    return frustum;
+}
+
+glm::dmat4 lookAlong(const glm::dvec3& axis, const glm::dvec3& upHint, const glm::dvec3& originLight) {
+    const glm::dvec3 right = glm::normalize(glm::cross(axis, upHint));
+    const glm::dvec3 up = glm::cross(right, axis);
+    glm::dmat4 faceFromLight(1);
+    faceFromLight = glm::row(faceFromLight, 0, glm::dvec4(right, -glm::dot(right, originLight)));
+    faceFromLight = glm::row(faceFromLight, 1, glm::dvec4(up, -glm::dot(up, originLight)));
+    faceFromLight = glm::row(faceFromLight, 2, glm::dvec4(axis, -glm::dot(axis, originLight)));
+    return faceFromLight;
+}
+
+/// The axis of the narrowest cone around unit vectors, nearly (Badoiu and Clarkson 2003: step towards the farthest).
+glm::dvec3 coneAxis(const std::vector<glm::dvec3>& directions) {
+    glm::dvec3 axis = directions.front();
+    for (int i = 1; i <= 64; ++i) {
+        const auto farthest = std::ranges::min(directions, {}, [&](const auto& d) { return glm::dot(d, axis); });
+        axis += (farthest - axis) / double(i + 1);
+        if (glm::length(axis) < 1e-6) return directions.front();
+    }
+    return glm::normalize(axis);
+}
+
+/// Grows the window around everything in `polygons` that the camera has in front of it, then by the border.
+/// Empty where nothing is.
+std::optional<LightCamera> fitWindow(LightCamera camera, const std::vector<Polygon>& polygons,
+                                     const LightCameraOptions& options) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    camera.windowMin = glm::dvec2(infinity);
+    camera.windowMax = glm::dvec2(-infinity);
+    double farthest = 0;
+    for (const Polygon& polygon : polygons) {
+        for (const glm::dvec3& posLight : polygon) {
+            const glm::dvec3 p = camera.faceFromLight * glm::dvec4(posLight, 1);
+            if (!camera.orthographic && p.z <= 0) continue;
+            const glm::dvec2 place = camera.orthographic ? glm::dvec2(p) : glm::dvec2(p) / p.z;
+            camera.windowMin = glm::min(camera.windowMin, place);
+            camera.windowMax = glm::max(camera.windowMax, place);
+            farthest = std::max(farthest, glm::length(p));
+        }
+    }
+    if (camera.windowMin.x > camera.windowMax.x || farthest == 0) return std::nullopt;
+
+    const glm::dvec2 extent = camera.windowMax - camera.windowMin;
+    const double smallest = 1e-6 * (camera.orthographic ? farthest : 1) + 1e-6 * std::max(extent.x, extent.y);
+    const glm::dvec2 border = glm::max(extent, smallest) * (2.0 / std::max(1, options.mapSize_px - 4)) + options.margin;
+    camera.windowMin -= border;
+    camera.windowMax += border;
+    // A float depth that tends to zero is as precise far away as it is near: the near plane may touch the light.
+    if (!camera.orthographic) camera.near_m = 1e-9 * farthest;
+    return camera;
+}
+
+/// The planes of the pyramid that a cube's face sees, a little wider so that neighbours overlap.
+std::array<Plane, 4> pyramidOf(const glm::dmat4& faceFromLight) {
+    const glm::dvec4 x = glm::row(faceFromLight, 0), y = glm::row(faceFromLight, 1);
+    const glm::dvec4 z = 1.001 * glm::row(faceFromLight, 2);
+    return {z - x, z + x, z - y, z + y};
+}
+
+LightCamera distantCamera(const LightSpaceScene& scene, const LightCameraOptions& options) {
+    LightCamera camera;
+    // A distant light's points are directions: originLight is the (unit) direction towards the point.
+    const bool center = options.originLight == glm::dvec3(0);
+    const glm::dvec3 axis = center ? glm::dvec3(0, 0, -1) : -options.originLight;
+    camera.faceFromLight = lookAlong(axis, {0, 1, 0}, {});
+    camera.orthographic = true;
+    camera.near_m = std::numeric_limits<double>::infinity();
+    camera.far_m = -camera.near_m;
+    const auto include = [&](const glm::dvec3& posLight) {
+        const double z = glm::dot(axis, posLight);
+        camera.near_m = std::min(camera.near_m, z);
+        camera.far_m = std::max(camera.far_m, z);
+    };
+    for (const BoxCorners& box : scene.boxes) {
+        if (!std::isnan(box[0].x)) std::ranges::for_each(box, include);
+    }
+    for (const Polygon& polygon : scene.receivers.polygons) std::ranges::for_each(polygon, include);
+    const double slack = 1e-3 * (camera.far_m - camera.near_m) + 1e-6;
+    camera.near_m -= slack;
+    camera.far_m += slack;
+    return camera;
+}
+
+}  // namespace
+
+LightSpaceScene makeLightSpaceScene(const ShadowInputs& inputs, const glm::dmat4& lightFromWorld) {
+    LightSpaceScene scene;
+    double farthest_m = 0;
+    const glm::dvec4 viewForwardLight = -glm::row(toGlm(inputs.view.viewFromWorld) * glm::inverse(lightFromWorld), 2);
+    for (const Caster& caster : inputs.casters) {
+        const glm::dmat4 lightFromMesh = lightFromWorld * toGlm(caster.worldFromMesh);
+        const Box& box = caster.mesh->bounds();
+        BoxCorners corners = cornersOf(box, lightFromMesh);
+        if (box.min.x > box.max.x) corners.fill(glm::dvec3(std::numeric_limits<double>::quiet_NaN()));
+        for (const glm::dvec3& corner : corners) {
+            farthest_m = std::max(farthest_m, glm::dot(viewForwardLight, glm::dvec4(corner, 1)));
+        }
+        scene.boxes.push_back(corners);
+        scene.lightFromMesh.push_back(lightFromMesh);
+    }
+
+    // Intersection of two convex bodies, by its surface: the faces of each, clipped by the other.
+    const Frustum frustum = frustumOf(inputs.view, lightFromWorld, 1.001 * farthest_m + 1e-6);
+    const std::vector<Plane> frustumPlanes = planesOf(frustum.corners);
+    const std::array<Plane, 1> emissionSide = {Plane(0, 0, -1, 0)};
+    for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
+        const BoxCorners& box = scene.boxes[i];
+        if (!inputs.casters[i].receives || std::isnan(box[0].x)) continue;
+        std::vector<Polygon> pieces = clip(facesOf(box), frustumPlanes);
+        if (!frustum.contains(box)) {
+            const std::vector<Polygon> caps = clip(facesOf(frustum.corners), planesOf(box));
+            pieces.insert(pieces.end(), caps.begin(), caps.end());
+        }
+        if (isOneSided(inputs.light)) pieces = clip(std::move(pieces), emissionSide);
+        scene.receivers.polygons.insert(scene.receivers.polygons.end(), pieces.begin(), pieces.end());
+    }
+    return scene;
+}
+
+glm::dmat4 LightCamera::clipFromLight() const {
+    const glm::dvec2 scale = 2.0 / (windowMax - windowMin);
+    const glm::dvec2 shift = -scale * windowMin - 1.0;
+    glm::dmat4 clipFromFace(0);
+    clipFromFace[0][0] = scale.x;
+    clipFromFace[1][1] = scale.y;
+    if (orthographic) {
+        clipFromFace[2][2] = -1 / (far_m - near_m);
+        clipFromFace[3] = {shift, far_m / (far_m - near_m), 1};
+    } else {
+        clipFromFace[2] = {shift, 0, 1};
+        clipFromFace[3][2] = near_m;
+    }
+    return clipFromFace * faceFromLight;
+}
+
+LightCameraConstants LightCamera::constants(int mapSize_px) const {
+    const glm::dvec2 extent = windowMax - windowMin;
+    return {
+        .clipFromLight = clipFromLight(),
+        .faceFromLight = faceFromLight,
+        .window = glm::dvec4(windowMin, 1.0 / extent),
+        .depth = {near_m, far_m, orthographic, std::max(extent.x, extent.y) / mapSize_px},
+    };
+}
+
+bool LightCamera::mightSee(const BoxCorners& box) const {
+    const glm::dmat4 clip = clipFromLight();
+    std::array<bool, 5> outside;
+    outside.fill(true);
+    for (const glm::dvec3& corner : box) {
+        const glm::dvec4 p = clip * glm::dvec4(corner, 1);
+        outside[0] = outside[0] && p.x < -p.w;
+        outside[1] = outside[1] && p.x > p.w;
+        outside[2] = outside[2] && p.y < -p.w;
+        outside[3] = outside[3] && p.y > p.w;
+        outside[4] = outside[4] && p.z > p.w;
+    }
+    return !std::isnan(box[0].x) && std::ranges::none_of(outside, [](bool all) { return all; });
+}
+
+std::vector<LightCamera> fitLightCameras(const AreaLight& light, const LightSpaceScene& scene,
+                                         const LightCameraOptions& options) {
+    std::vector<LightCamera> cameras;
+    const std::vector<Polygon>& receivers = scene.receivers.polygons;
+    if (receivers.empty()) return cameras;
+    if (light.shape == LightShape::distant) {
+        if (auto camera = fitWindow(distantCamera(scene, options), receivers, options)) cameras.push_back(*camera);
+        return cameras;
+    }
+
+    std::vector<glm::dvec3> directions;
+    for (const Polygon& polygon : receivers) {
+        for (const glm::dvec3& p : polygon) {
+            if (p != options.originLight) directions.push_back(glm::normalize(p - options.originLight));
+        }
+    }
+    if (directions.empty()) return cameras;
+    const glm::dvec3 axis = coneAxis(directions);
+    constexpr double cosineOfHalfField = 0.5;
+    if (std::ranges::all_of(directions, [&](const auto& d) { return glm::dot(d, axis) > cosineOfHalfField; })) {
+        const glm::dvec3 up = std::abs(axis.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+        LightCamera camera{.faceFromLight = lookAlong(axis, up, options.originLight)};
+        if (auto fitted = fitWindow(camera, receivers, options)) cameras.push_back(*fitted);
+        return cameras;
+    }
+    for (const glm::dvec3& faceAxis : {glm::dvec3(0, 0, -1), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0),
+                                       glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0)}) {
+        const glm::dvec3 up = faceAxis.y == 0 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+        LightCamera camera{.faceFromLight = lookAlong(faceAxis, up, options.originLight)};
+        const std::vector<Polygon> inFace = clip(receivers, pyramidOf(camera.faceFromLight));
+        if (auto fitted = fitWindow(camera, inFace, options)) cameras.push_back(*fitted);
+    }
+    return cameras;
+}
+
+}  // namespace penumbra

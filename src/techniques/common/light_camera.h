@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cameras that look from a point of the light at what it can shadow: where shadow maps of every kind are drawn from.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "penumbra/technique.h"
+#include "src/techniques/common/light_camera_io.h"
+
+namespace penumbra {
+
+/// What the light may shadow: the visible part of everything that receives, in light space.
+struct ReceiverRegion {
+    using Polygon = std::vector<glm::dvec3>;
+    /// The surfaces of convex pieces, each the intersection of a receiver's box with the view frustum.
+    std::vector<Polygon> polygons;
+};
+
+/// Corners of a caster's bounding box in light space; none for an empty mesh.
+using BoxCorners = std::array<glm::dvec3, 8>;
+
+/// The boxes of casters in light space, and the receivers among what the view sees.
+struct LightSpaceScene {
+    std::vector<BoxCorners> boxes;     ///< one a caster, in their order; empty meshes have NaN corners
+    std::vector<glm::dmat4> lightFromMesh;  ///< one a caster
+    ReceiverRegion receivers;
+};
+
+/// Computes the above. `lightFromWorld` as from view_constants.h.
+LightSpaceScene makeLightSpaceScene(const ShadowInputs& inputs, const glm::dmat4& lightFromWorld);
+
+/// A camera in face space: x to the right, y up, z along the axis it looks. Perspective cameras have the light's point
+/// at the origin and a window in tangents (x/z, y/z); orthographic ones a window in metres.
+struct LightCamera {
+    glm::dmat4 faceFromLight{1};
+    glm::dvec2 windowMin{0}, windowMax{0};
+    bool orthographic = false;
+    double near_m = 0;  ///< perspective: depth 1, and the nearest caster that is seen; orthographic: likewise
+    double far_m = 0;   ///< orthographic only: depth 0
+
+    /// Reversed depth: 1 at near_m, 0 at infinity (perspective) or at far_m (orthographic).
+    glm::dmat4 clipFromLight() const;
+    LightCameraConstants constants(int mapSize_px) const;
+    /// False only if nothing inside `box` can be seen.
+    bool mightSee(const BoxCorners& box) const;
+};
+
+struct LightCameraOptions {
+    glm::dvec3 originLight{0};  ///< the point of the light to look from
+    int mapSize_px = 1024;      ///< windows get a border of two texels
+    double margin = 0;          ///< added around each window, in tangents or metres
+};
+
+/// Cameras that together see every receiver: one perspective where its field of view stays below 120 degrees, faces of
+/// a cube around the light where not, one orthographic camera for distant lights. Each window is fitted to the
+/// receivers in it. None where nothing receives.
+std::vector<LightCamera> fitLightCameras(const AreaLight& light, const LightSpaceScene& scene,
+                                         const LightCameraOptions& options);
+
+}  // namespace penumbra

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "penumbra/technique.h"
+#include "src/gl/buffer.h"
+#include "src/gl/pass_timers.h"
+#include "src/techniques/common/view_io.h"
+
+namespace penumbra {
+
+/// Throws Error::Kind::badArgument where sizes, matrices or the light's numbers are outside their documented ranges, or
+/// `out` does not fit the view and the light.
+void checkInputs(const ShadowInputs& inputs, const VisibilityBuffer& out);
+
+/// From world space to the light's: rotation and translation. A distant light, which has no place, gets its origin in
+/// the middle of the casters.
+glm::dmat4 lightFromWorld(const ShadowInputs& inputs);
+
+/// Rect and disk lights that emit along -Z alone.
+bool isOneSided(const AreaLight& light);
+
+/// Gives shaders the receivers in light space (see view.glsl).
+class ViewBinding {
+  public:
+    ViewBinding() : constants_("view constants") {}
+    /// Fills and binds uniform block 0 and texture units 0 to 2.
+    void bind(const View& view, const glm::dmat4& lightFromWorld);
+
+  private:
+    gl::ConstantBuffer<ViewConstants> constants_;
+};
+
+/// Binds `out` as image `unit` for a compute shader to write.
+void bindVisibility(const VisibilityBuffer& out, unsigned unit);
+
+/// The passes' newest times, for Technique::statistics.
+std::vector<PassTime> passTimes(const gl::PassTimers& timers);
+
+}  // namespace penumbra

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The comparison that all techniques of this room make, free of a bias that a user would have to tune.
+//
+// A texel stores the depth that its centre sees. The receiver is moved to where its own plane is seen through that
+// centre (receiverPlaneDepth_m), so that a flat surface compares equal with itself up to rounding, however steeply it
+// is lit. What remains is a surface that bends within a texel: it rises over the plane by a texel's size times the
+// slopes that meet; the tolerance below covers a right angle lit at 45 degrees. The price is that a blocker less than a
+// texel above its receiver, along the light's axis, casts no shadow there.
+
+const float toleranceTexels = 1.0;
+const float tolerancePrecision = 4e-6;  // some 32 ulps: positions come out of a 32-bit depth buffer and three transforms
+
+bool isTexelLit(int camera, MapPoint point, vec3 normalFace, ivec2 texel, int size_px) {
+    float stored = texelFetch(depthMaps, ivec3(texel, camera), 0).r;
+    float farthest_m = 64.0 * point.texel_m;
+    float receiver_m = receiverPlaneDepth_m(camera, point, normalFace, (vec2(texel) + 0.5) / float(size_px), farthest_m);
+    float tolerance_m = toleranceTexels * point.texel_m + tolerancePrecision * length(point.posFace);
+    return receiver_m - tolerance_m <= depthFace_m(camera, stored);
+}
+
+// 1 if the light's centre sees the receiver, going by the nearest texel; 0 if not.
+float nearestTexelLit(int mapCount, Receiver receiver) {
+    int size_px = textureSize(depthMaps, 0).x;
+    for (int camera = 0; camera < mapCount; ++camera) {
+        MapPoint point = mapPoint(camera, receiver.posLight);
+        if (!isInWindow(camera, point)) continue;
+        vec3 normalFace = mat3(lightCameras[camera].faceFromLight) * receiver.normalLight;
+        ivec2 texel = ivec2(point.uv * float(size_px));
+        return isTexelLit(camera, point, normalFace, texel, size_px) ? 1.0 : 0.0;
+    }
+    return 1.0;
+}

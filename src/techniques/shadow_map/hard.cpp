@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/techniques/shadow_map/hard.h"
+
+namespace penumbra {
+
+HardShadowMap::HardShadowMap(Device& device)
+    : depthMap_(device),
+      resolve_(device.internals().shaders, {"src/techniques/shadow_map/hard.comp.glsl"}) {}
+
+void HardShadowMap::describe(ParameterVisitor& visitor) {
+    visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"}, mapSize_px_,
+                    {16, 16384});
+}
+
+void HardShadowMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
+    checkInputs(inputs, out);
+    const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
+    const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
+    const std::vector<LightCamera> cameras = fitLightCameras(inputs.light, scene, {.mapSize_px = mapSize_px_});
+    {
+        const auto pass = timers_.pass("hard/depth map");
+        depthMap_.render(inputs.casters, scene, cameras, mapSize_px_);
+    }
+    {
+        const auto pass = timers_.pass("hard/resolve");
+        resolve_.use();
+        view_.bind(inputs.view, lightFromWorldMatrix);
+        depthMap_.bind(3, 0);
+        bindVisibility(out, 0);
+        glUniform1i(0, depthMap_.count());
+        glUniform1i(1, inputs.light.shape == LightShape::distant);
+        glUniform1i(2, isOneSided(inputs.light));
+        gl::dispatchPixels(out.width_px(), out.height_px());
+        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    }
+}
+
+void HardShadowMap::inspect(InspectionVisitor& visitor) const {
+    visitor.texture({.name = "depth map", .texture = depthMap_.texture().name(), .layers = depthMap_.count()});
+}
+
+Statistics HardShadowMap::statistics() const {
+    Statistics statistics;
+    statistics.counts.push_back({"maps", double(depthMap_.count())});
+    statistics.passes = passTimes(timers_);
+    return statistics;
+}
+
+}  // namespace penumbra
