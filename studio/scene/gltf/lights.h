@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights and cameras: what the file says of them, and what they are where their node stands.
+#pragma once
+
+#include "studio/scene/gltf/nodes.h"
+
+namespace penumbra::studio::gltf {
+
+/// A light or camera and the node that carries it. Its own transform is left at the identity.
+struct PlacedLight {
+    int node = 0;
+    Light light;
+};
+struct PlacedCamera {
+    int node = 0;
+    Camera camera;
+};
+
+/// The lights of EXT_lights_area if any node of the scene has one, else those of KHR_lights_punctual.
+std::vector<PlacedLight> loadLights(const JsonView& root, const Hierarchy& hierarchy, Scene& scene);
+
+std::vector<PlacedCamera> loadCameras(const JsonView& root, const Hierarchy& hierarchy);
+
+/// Rotation and translation of an affine matrix: -Z is kept, then as much of +Y as possible.
+glm::mat4 rigidPart(const glm::mat4& affine);
+
+Light lightAt(const PlacedLight& placed, const glm::mat4& worldFromNode);
+Camera cameraAt(const PlacedCamera& placed, const glm::mat4& worldFromNode);
+
+}  // namespace penumbra::studio::gltf

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/scene/gltf/materials.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "studio/errors.h"
+#include "studio/scene/gltf/picture_decode.h"
+
+namespace penumbra::studio::gltf {
+
+namespace {
+
+int enumMember(const JsonView& json, const char* key, int fallback, std::initializer_list<int> allowed) {
+    const auto member = json.find(key);
+    if (!member) return fallback;
+    const int value = int(member->asInteger(0, 0xffff));
+    if (std::ranges::find(allowed, value) == allowed.end())
+        member->fail(fmt::format("{} is not allowed", value));
+    return value;
+}
+
+Texture loadSampler(const JsonView& json) {
+    return {
+        .minFilter = enumMember(json, "minFilter", Texture().minFilter, {9728, 9729, 9984, 9985, 9986, 9987}),
+        .magFilter = enumMember(json, "magFilter", Texture().magFilter, {9728, 9729}),
+        .wrapS = enumMember(json, "wrapS", Texture().wrapS, {33071, 33648, 10497}),
+        .wrapT = enumMember(json, "wrapT", Texture().wrapT, {33071, 33648, 10497})};
+}
+
+// u' = offset + rotation * (scale * u). The rotation is counter-clockwise as seen with v pointing down; the
+// extension's example, which keeps to the lower left quadrant of the picture, fixes its sign.
+glm::mat3 uvTransform(const JsonView& json) {
+    const glm::vec2 offset = json.vec2("offset", glm::vec2(0)), scale = json.vec2("scale", glm::vec2(1));
+    const float angle = json.number("rotation", 0), c = std::cos(angle), s = std::sin(angle);
+    return {c * scale.x, -s * scale.x, 0, s * scale.y, c * scale.y, 0, offset.x, offset.y, 1};
+}
+
+UvSource loadUvSource(const JsonView& textureInfo) {
+    constexpr int maxSets = 1000;
+    UvSource source{.texCoord = int(textureInfo.integer("texCoord", 0, 0, maxSets))};
+    if (const auto transform = textureInfo.extension("KHR_texture_transform")) {
+        source.texCoord = int(transform->integer("texCoord", source.texCoord, 0, maxSets));
+        source.transform = uvTransform(*transform);
+    }
+    return source;
+}
+
+class TextureLoader {
+  public:
+    TextureLoader(const JsonView& root, const Accessors& accessors, const std::filesystem::path& folder,
+                  Budget& budget, Scene& scene)
+        : accessors_(accessors),
+          folder_(folder),
+          budget_(budget),
+          scene_(scene),
+          textures_(root.list("textures")),
+          images_(root.list("images")) {
+        for (const JsonView& json : root.list("samplers")) samplers_.push_back(loadSampler(json));
+        for (const JsonView& json : textures_) {
+            json.index("sampler", samplers_.size());
+            json.index("source", images_.size());
+        }
+        for (const JsonView& json : images_)
+            if (json.has("uri") == (json.index("bufferView", accessors_.viewCount()).has_value()))
+                json.fail("must have either a uri or a bufferView");
+    }
+
+    std::size_t size() const { return textures_.size(); }
+
+    /// Index into Scene::textures, or -1 where the texture has no picture that can be read.
+    int load(int index) {
+        const JsonView& json = textures_[std::size_t(index)];
+        const auto [known, isNew] = sceneTextures_.try_emplace(index, -1);
+        if (!isNew) return known->second;
+        const auto source = json.index("source", images_.size());
+        if (!source) {
+            scene_.warnings.push_back(
+                fmt::format("{}: has no picture in PNG or JPEG; left out", json.pointer()));
+            return -1;
+        }
+        const auto sampler = json.index("sampler", samplers_.size());
+        Texture texture = sampler ? samplers_[std::size_t(*sampler)] : Texture();
+        texture.picture = loadPicture(*source);
+        scene_.textures.push_back(texture);
+        return known->second = int(scene_.textures.size()) - 1;
+    }
+
+  private:
+    int loadPicture(int index) {
+        const auto [known, isNew] = scenePictures_.try_emplace(index, -1);
+        if (!isNew) return known->second;
+        const JsonView& json = images_[std::size_t(index)];
+        const auto uri = json.find("uri");
+        const bool isFile = uri && !uri->asString().starts_with("data:");
+        const std::string name =
+            json.string("name", isFile ? uri->asString() : fmt::format("image {}", index));
+        try {
+            const Bytes fetched = uri ? readUri(*uri, folder_, budget_) : Bytes();
+            const std::span<const std::byte> bytes =
+                uri ? fetched : accessors_.view(json.at("bufferView").asIndex(accessors_.viewCount())).bytes;
+            const PictureSize size = readPictureSize(bytes, name);
+            budget_.charge(std::uint64_t(size.width_px) * std::uint64_t(size.height_px), 4, json.pointer());
+            scene_.pictures.push_back(decodePicture(bytes, name));
+        } catch (const InputError& error) {
+            json.fail(error.what());
+        }
+        return known->second = int(scene_.pictures.size()) - 1;
+    }
+
+    const Accessors& accessors_;
+    const std::filesystem::path& folder_;
+    Budget& budget_;
+    Scene& scene_;
+    std::vector<JsonView> textures_, images_;
+    std::vector<Texture> samplers_;
+    std::map<int, int> sceneTextures_, scenePictures_;  // index in the file -> index in the scene
+};
+
+Material::Alpha loadAlpha(const JsonView& json, std::vector<std::string>& warnings) {
+    const std::string mode = json.string("alphaMode", "OPAQUE");
+    if (mode == "MASK") return Material::Alpha::mask;
+    if (mode == "BLEND")
+        warnings.push_back(fmt::format("{}/alphaMode: BLEND is drawn as OPAQUE", json.pointer()));
+    else if (mode != "OPAQUE")
+        json.at("alphaMode").fail(fmt::format("'{}' is not OPAQUE, MASK or BLEND", mode));
+    return Material::Alpha::opaque;
+}
+
+}  // namespace
+
+std::vector<std::optional<UvSource>> loadMaterials(const JsonView& root, const Accessors& accessors,
+                                                   const std::filesystem::path& folder, Budget& budget,
+                                                   Scene& scene) {
+    TextureLoader textures(root, accessors, folder, budget, scene);
+    std::vector<std::optional<UvSource>> uvSources;
+    for (const JsonView& json : root.list("materials")) {
+        Material material{.name = json.string("name"),
+                          .alpha = loadAlpha(json, scene.warnings),
+                          .alphaCutoff = json.numberWithin("alphaCutoff", 0.5f, 0, 1e6f),
+                          .doubleSided = json.boolean("doubleSided", false),
+                          .unlit = json.extension("KHR_materials_unlit").has_value()};
+        std::optional<UvSource>& uvSource = uvSources.emplace_back();
+        if (const auto pbr = json.find("pbrMetallicRoughness")) {
+            if (const auto factor = pbr->find("baseColorFactor")) {
+                const std::vector<float> v = factor->asNumbers(4);
+                material.baseColor = glm::clamp(glm::vec4(v[0], v[1], v[2], v[3]), 0.0f, 1.0f);
+            }
+            if (const auto info = pbr->find("baseColorTexture")) {
+                material.baseColorTexture = textures.load(info->at("index").asIndex(textures.size()));
+                if (material.baseColorTexture >= 0) uvSource = loadUvSource(*info);
+            }
+            if (const auto info = pbr->find("metallicRoughnessTexture"))
+                info->at("index").asIndex(textures.size());
+        }
+        for (const char* key : {"normalTexture", "occlusionTexture", "emissiveTexture"})
+            if (const auto info = json.find(key)) info->at("index").asIndex(textures.size());
+        scene.materials.push_back(std::move(material));
+    }
+    scene.materials.push_back({.name = "default"});
+    uvSources.emplace_back();
+    return uvSources;
+}
+
+}  // namespace penumbra::studio::gltf
