@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <ranges>
+#include <span>
+#include <string>
+#include <type_traits>
+
+namespace penumbra::studio {
+
+/// 128 bits that name some content. Not cryptographic: it tells pictures apart, it withstands no attack.
+struct ContentHash {
+    std::uint64_t high = 0, low = 0;
+    bool operator==(const ContentHash&) const = default;
+    std::string hex() const;  ///< 32 lower-case digits
+};
+
+/// Hashes what is added, in order. Arrays count with their length, so that {1} {2, 3} differs from {1, 2}
+/// {3}.
+class ContentHasher {
+  public:
+    void addBytes(std::span<const std::byte> bytes);
+
+    template <typename T>
+    requires std::has_unique_object_representations_v<T> || std::is_floating_point_v<T>
+    void add(T value) { addBytes(std::as_bytes(std::span(&value, 1))); }
+
+    template <std::ranges::contiguous_range Range>
+    void addArray(const Range& values) {
+        add(std::uint64_t(std::ranges::size(values)));
+        addBytes(std::as_bytes(std::span(std::ranges::data(values), std::ranges::size(values))));
+    }
+
+    ContentHash hash() const;
+
+  private:
+    void mix(std::uint64_t word);
+
+    std::uint64_t a_ = 0x9E3779B97F4A7C15u, b_ = 0xD1B54A32D192ED03u;
+};
+
+}  // namespace penumbra::studio

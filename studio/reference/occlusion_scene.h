@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "studio/reference/reference.h"
+
+namespace penumbra::studio {
+
+/// Rays from one point, as separate arrays because that is how they are traced.
+struct RayFan {
+    std::vector<float> directionX, directionY, directionZ;
+    std::vector<float> end;  ///< in multiples of the direction; infinity for none
+
+    std::size_t size() const { return end.size(); }
+    void resize(std::size_t count);
+    void set(std::size_t ray, const glm::vec3& direction, float rayEnd) {
+        directionX[ray] = direction.x;
+        directionY[ray] = direction.y;
+        directionZ[ray] = direction.z;
+        end[ray] = rayEnd;
+    }
+};
+
+/// Does anything block a ray? The one class that knows which ray tracing library is used, and its version.
+class OcclusionScene {
+  public:
+    /// The indices must be in range.
+    explicit OcclusionScene(std::span<const TracedCaster> casters);
+    OcclusionScene(const OcclusionScene&) = delete;
+    OcclusionScene& operator=(const OcclusionScene&) = delete;
+    ~OcclusionScene();
+
+    /// Sets `blocked[i]` to 1 if ray i is blocked, else to 0. Faster when rays that follow each other are
+    /// close.
+    void trace(const glm::vec3& origin, const RayFan& rays, std::span<std::uint8_t> blocked) const;
+
+  private:
+    struct Mask;
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace penumbra::studio
