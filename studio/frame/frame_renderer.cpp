@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/frame/frame_renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "studio/frame/conversions.h"
+#include "studio/frame/shaders.h"
+
+namespace penumbra::studio {
+namespace {
+
+gl::ShaderLibrary makeShaderLibrary(std::filesystem::path sourceDirectory) {
+    gl::ShaderLibrary shaders(std::move(sourceDirectory));
+    shaders.add(frameShaders());
+    return shaders;
+}
+
+/// A distant light's place does not matter; near the camera its coordinates stay small.
+glm::dmat4 worldFromLight(const AreaLight& light, const CameraView& camera) {
+    glm::dmat4 matrix = fromPenumbra(light.worldFromLight);
+    if (light.shape == LightShape::distant) matrix[3] = glm::inverse(camera.viewFromWorld)[3];
+    return matrix;
+}
+
+}  // namespace
+
+FrameRenderer::FrameRenderer(Device& device, std::filesystem::path shaderSourceDirectory)
+    : device_(device),
+      shaders_(makeShaderLibrary(std::move(shaderSourceDirectory))),
+      gbuffer_(shaders_),
+      lighting_(shaders_, {"studio/frame/lighting.comp.glsl"}),
+      exposure_(shaders_, {"studio/frame/exposure.comp.glsl"}),
+      toneMap_(shaders_, {"studio/frame/tone_map.comp.glsl"}),
+      lightingConstants_("lighting"),
+      exposureResult_(2 * sizeof(float), "exposure") {}
+
+void FrameRenderer::resize(int width_px, int height_px) {
+    if (display_.width_px() == width_px && display_.height_px() == height_px && display_.name() != 0) return;
+    const auto make = [&](GLenum format, std::string_view label) {
+        return gl::Texture({.width_px = width_px, .height_px = height_px, .format = format, .label = label});
+    };
+    radiance_ = make(GL_RGBA32F, "radiance");
+    unshadowed_ = make(GL_RGBA32F, "unshadowed radiance");
+    reach_ = make(GL_R32F, "unshadowed irradiance of one light");
+    display_ = make(GL_RGBA8, "display");
+}
+
+void FrameRenderer::draw(const GpuScene& scene, const SceneMoment& moment, const Camera& camera, int width_px,
+                         int height_px) {
+    resize(width_px, height_px);
+    scene_ = &scene;
+    camera_ = makeCameraView(camera, moment.bounds, width_px, height_px);
+    gbuffer_.render(scene, camera_, width_px, height_px);
+    glClearTexImage(radiance_.name(), 0, GL_RGBA, GL_FLOAT, nullptr);
+    glClearTexImage(unshadowed_.name(), 0, GL_RGBA, GL_FLOAT, nullptr);
+}
+
+ShadowInputs FrameRenderer::shadowInputs(const Light& light) const {
+    ShadowInputs inputs{.view = gbuffer_.view(), .light = light.shape, .casters = scene_->casters()};
+    inputs.light.radianceTexture = scene_->texture(light.texture);
+    return inputs;
+}
+
+VisibilityBuffer FrameRenderer::makeVisibility(const Light& light) const {
+    return VisibilityBuffer(device_, display_.width_px(), display_.height_px(), light.texture >= 0);
+}
+
+LightingConstants FrameRenderer::lightingConstants(const Light& light, bool coloredVisibility) const {
+    const AreaLight& shape = light.shape;
+    const glm::dmat4 lightFromWorld = glm::inverse(worldFromLight(shape, camera_));
+    const glm::vec2 cone = light.cone_rad ? glm::vec2(std::cos((*light.cone_rad)[0]), std::cos((*light.cone_rad)[1]))
+                                          : glm::vec2(-2);
+    return {
+        .lightFromClip = lightFromWorld * glm::inverse(camera_.clipFromView * camera_.viewFromWorld),
+        .lightFromWorld = lightFromWorld,
+        .emission = glm::vec4(light.emission.value, 0),
+        .size = {0.5f * shape.width_m, 0.5f * shape.height_m, shape.radius_m, 0.5f * shape.angle_rad},
+        .cone = glm::vec4(cone, 0, 0),
+        .kind = {int(shape.shape), shape.twoSided, light.emission.unit != Emission::Unit::nits, light.texture >= 0},
+        .target = {display_.width_px(), display_.height_px(), coloredVisibility, 0},
+    };
+}
+
+void FrameRenderer::addLight(const Light& light, const VisibilityBuffer& visibility) {
+    const gl::DebugGroup group("lighting");
+    lighting_.use();
+    lightingConstants_.write(lightingConstants(light, visibility.colored()));
+    lightingConstants_.bindUniform(0);
+    glBindTextureUnit(0, gbuffer_.view().depthTexture);
+    gbuffer_.shadingNormals().bind(1);
+    gbuffer_.albedo().bind(2);
+    glBindTextureUnit(3, visibility.texture());
+    glBindTextureUnit(4, scene_->texture(light.texture));
+    radiance_.bindImage(0, GL_READ_WRITE);
+    unshadowed_.bindImage(1, GL_READ_WRITE);
+    reach_.bindImage(2, GL_WRITE_ONLY);
+    gl::dispatchPixels(display_.width_px(), display_.height_px());
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+}
+
+Image FrameRenderer::readVisibility(const VisibilityBuffer& visibility) const {
+    return readTexture(visibility.texture(), visibility.width_px(), visibility.height_px(),
+                       visibility.colored() ? 3 : 1);
+}
+
+Image FrameRenderer::readReach() const { return readTexture(reach_.name(), reach_.width_px(), reach_.height_px(), 1); }
+
+Image FrameRenderer::readRadiance() const {
+    return readTexture(radiance_.name(), radiance_.width_px(), radiance_.height_px(), 3);
+}
+
+Image FrameRenderer::readDisplay() {
+    {
+        const gl::DebugGroup group("tone mapping");
+        exposure_.use();
+        unshadowed_.bind(0);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, exposureResult_.name());
+        glDispatchCompute(1, 1, 1);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        toneMap_.use();
+        radiance_.bind(0);
+        gbuffer_.albedo().bind(1);
+        glBindTextureUnit(2, gbuffer_.view().depthTexture);
+        display_.bindImage(0, GL_WRITE_ONLY);
+        gl::dispatchPixels(display_.width_px(), display_.height_px());
+        glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    }
+    return readTexture(display_.name(), display_.width_px(), display_.height_px(), 3);
+}
+
+Image readTexture(GLuint texture, int width_px, int height_px, int channels) {
+    constexpr std::array<GLenum, 4> formats = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
+    Image bottomUp(width_px, height_px, channels);
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(texture, 0, formats[std::size_t(channels) - 1], GL_FLOAT,
+                      GLsizei(bottomUp.values.size() * sizeof(float)), bottomUp.values.data());
+    Image image(width_px, height_px, channels);
+    const std::size_t row = std::size_t(width_px) * std::size_t(channels);
+    for (std::size_t y = 0; y < std::size_t(height_px); ++y) {
+        std::copy_n(&bottomUp.values[y * row], row, &image.values[(std::size_t(height_px) - 1 - y) * row]);
+    }
+    return image;
+}
+
+}  // namespace penumbra::studio

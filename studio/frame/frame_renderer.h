@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "penumbra/penumbra.h"
+#include "src/gl/shader_library.h"
+#include "studio/frame/gbuffer.h"
+#include "studio/frame/gpu_scene.h"
+#include "studio/frame/lighting_io.h"
+#include "studio/image/image.h"
+
+namespace penumbra::studio {
+
+/// The frame: scene -> G-buffer -> (a technique, light by light) -> lighting -> image. In this order:
+///
+///     frame.draw(scene, moment, camera, width_px, height_px);
+///     for (const Light& light : moment.lights) {
+///         VisibilityBuffer visibility = frame.makeVisibility(light);
+///         technique.render(frame.shadowInputs(light), visibility);
+///         frame.addLight(light, visibility);
+///     }
+///     Image picture = frame.readDisplay();
+class FrameRenderer {
+  public:
+    /// `shaderSourceDirectory` as in DeviceOptions.
+    explicit FrameRenderer(Device& device, std::filesystem::path shaderSourceDirectory = {});
+
+    /// Draws what the camera sees and forgets the light of the frame before. `scene` must be at `moment` and stay
+    /// alive until the next call. Sizes from 1 to Device::maxTextureSize_px().
+    void draw(const GpuScene& scene, const SceneMoment& moment, const Camera& camera, int width_px, int height_px);
+
+    ShadowInputs shadowInputs(const Light& light) const;
+    VisibilityBuffer makeVisibility(const Light& light) const;
+
+    /// Adds a light times its visibility.
+    void addLight(const Light& light, const VisibilityBuffer& visibility);
+
+    /// Reading waits for the device. Rows from the top.
+    Image readVisibility(const VisibilityBuffer& visibility) const;  ///< 1 channel, or 3 where it is colored
+    Image readReach() const;     ///< the last light's unshadowed irradiance for unit emission, 1 channel; 0: not reached
+    Image readRadiance() const;  ///< nits, RGB
+    Image readDisplay();         ///< sRGB-encoded RGB in [0, 1]
+
+  private:
+    void resize(int width_px, int height_px);
+    LightingConstants lightingConstants(const Light& light, bool coloredVisibility) const;
+
+    Device& device_;
+    gl::ShaderLibrary shaders_;
+    GBuffer gbuffer_;
+    gl::Program lighting_, exposure_, toneMap_;
+    gl::ConstantBuffer<LightingConstants> lightingConstants_;
+    gl::Buffer exposureResult_;
+    gl::Texture radiance_, unshadowed_, reach_, display_;
+    const GpuScene* scene_ = nullptr;
+    CameraView camera_;
+};
+
+/// A texture's base level on the CPU, rows from the top. Waits for the device.
+Image readTexture(GLuint texture, int width_px, int height_px, int channels);
+
+}  // namespace penumbra::studio

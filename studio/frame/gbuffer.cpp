@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/frame/gbuffer.h"
+
+#include <array>
+
+#include "src/gl/raster_state.h"
+#include "studio/frame/conversions.h"
+
+namespace penumbra::studio {
+namespace {
+
+/// Transforms normals like the inverse transpose does, up to a factor, and exists for flattened instances too.
+glm::dmat3 cofactors(const glm::dmat3& m) {
+    return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
+}
+
+}  // namespace
+
+GBuffer::GBuffer(gl::ShaderLibrary& shaders)
+    : program_(shaders, {"studio/frame/gbuffer.vert.glsl", "studio/frame/gbuffer.frag.glsl"}),
+      vertices_(gl::makeFloatVertexArray(3, 3, 2)),
+      constants_("G-buffer instance") {}
+
+void GBuffer::resize(int width_px, int height_px) {
+    if (view_.width_px == width_px && view_.height_px == height_px) return;
+    const auto make = [&](GLenum format, std::string_view label) {
+        return gl::Texture({.width_px = width_px, .height_px = height_px, .format = format, .label = label});
+    };
+    depth_ = make(GL_DEPTH_COMPONENT32F, "G-buffer depth");
+    geometricNormals_ = make(GL_RGBA32F, "G-buffer geometric normals");
+    shadingNormals_ = make(GL_RGBA16F, "G-buffer shading normals");
+    albedo_ = make(GL_RGBA16F, "G-buffer albedo");
+    receivers_ = make(GL_R8, "G-buffer receivers");
+    framebuffer_ =
+        gl::Framebuffer({&geometricNormals_, &shadingNormals_, &albedo_, &receivers_}, &depth_, "G-buffer");
+    view_.width_px = width_px;
+    view_.height_px = height_px;
+    view_.depthTexture = depth_.name();
+    view_.normalTexture = geometricNormals_.name();
+    view_.receiverTexture = receivers_.name();
+}
+
+void GBuffer::render(const GpuScene& scene, const CameraView& camera, int width_px, int height_px) {
+    const gl::DebugGroup group("G-buffer");
+    resize(width_px, height_px);
+    view_.viewFromWorld = toPenumbra(glm::mat4(camera.viewFromWorld));
+    view_.clipFromView = toPenumbra(glm::mat4(camera.clipFromView));
+
+    gl::beginPass(framebuffer_.name(),
+                  {.width_px = width_px, .height_px = height_px, .depthTest = GL_GREATER, .depthWrite = true});
+    constexpr std::array<float, 4> zero{};
+    for (GLint buffer = 0; buffer < 4; ++buffer) {
+        glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, buffer, zero.data());
+    }
+    glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, zero.data());
+
+    program_.use();
+    glBindVertexArray(vertices_.name());
+    constants_.bindUniform(0);
+    for (const GpuScene::Drawable& drawable : scene.drawables()) {
+        const Material& material = *drawable.material;
+        const glm::dmat4 viewFromMesh = camera.viewFromWorld * glm::dmat4(drawable.worldFromMesh);
+        const bool masked = material.alpha == Material::Alpha::mask;
+        constants_.write({
+            .clipFromMesh = camera.clipFromView * viewFromMesh,
+            .viewFromMesh = viewFromMesh,
+            .worldFromView = glm::inverse(camera.viewFromWorld),
+            .viewFromMeshNormal = glm::dmat4(cofactors(glm::dmat3(viewFromMesh))),
+            .baseColor = material.baseColor,
+            .alpha = {masked ? material.alphaCutoff : -1, 0, 0, 0},
+            .flags = {material.baseColorTexture >= 0, drawable.receives, material.unlit, camera.orthographic},
+        });
+        const penumbra::Mesh& mesh = *drawable.mesh;
+        gl::attachFloats(vertices_.name(), 0, mesh.positionBuffer(), 3);
+        gl::attachFloats(vertices_.name(), 1, drawable.normals->name(), 3);
+        gl::attachFloats(vertices_.name(), 2, mesh.uvBuffer(), 2);
+        glVertexArrayElementBuffer(vertices_.name(), mesh.indexBuffer());
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, mesh.positionBuffer());
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, mesh.indexBuffer());
+        glBindTextureUnit(0, scene.texture(material.baseColorTexture));
+        glDrawElements(GL_TRIANGLES, GLsizei(mesh.indices().size()), GL_UNSIGNED_INT, nullptr);
+    }
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+}  // namespace penumbra::studio

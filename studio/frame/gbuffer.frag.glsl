@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 450
+#include "studio/frame/gbuffer_io.h"
+
+layout(std140, binding = 0) uniform InstanceBlock { InstanceConstants instance; };
+layout(std430, binding = 0) readonly buffer Positions { float positions[]; };
+layout(std430, binding = 1) readonly buffer Indices { uint indices[]; };
+layout(binding = 0) uniform sampler2D baseColorTexture;
+
+layout(location = 0) in vec3 posView;
+layout(location = 1) in vec3 normalView;
+layout(location = 2) in vec2 uv;
+
+layout(location = 0) out vec4 geometricNormalWorld;
+layout(location = 1) out vec4 shadingNormalWorld;
+layout(location = 2) out vec4 albedo;  // a: 1 lit, 0 unlit
+layout(location = 3) out float receives;
+
+vec3 corner(int i) {
+    uint first = 3u * indices[3 * gl_PrimitiveID + i];
+    return vec3(positions[first], positions[first + 1u], positions[first + 2u]);
+}
+
+void main() {
+    vec4 color = instance.baseColor;
+    if (instance.flags.x == 1) color *= texture(baseColorTexture, uv);
+    if (color.a < instance.alpha.x) discard;
+
+    // The triangle's own normal, from its corners: screen-space derivatives would be noisy far away and at edges.
+    mat3 viewFromMesh = mat3(instance.viewFromMesh);
+    vec3 geometricView =
+        normalize(cross(viewFromMesh * (corner(1) - corner(0)), viewFromMesh * (corner(2) - corner(0))));
+    vec3 towardsCamera = instance.flags.w == 1 ? vec3(0.0, 0.0, 1.0) : -posView;
+    if (dot(geometricView, towardsCamera) < 0.0) geometricView = -geometricView;
+    // Interpolated normals may vanish; then the triangle's serves.
+    vec3 shadingView = dot(normalView, normalView) > 0.0 ? normalize(normalView) : geometricView;
+    if (dot(shadingView, geometricView) < 0.0) shadingView = -shadingView;
+
+    geometricNormalWorld = vec4(mat3(instance.worldFromView) * geometricView, 0.0);
+    shadingNormalWorld = vec4(mat3(instance.worldFromView) * shadingView, 0.0);
+    albedo = vec4(color.rgb, instance.flags.z == 1 ? 0.0 : 1.0);
+    receives = float(instance.flags.y);
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "penumbra/penumbra.h"
+#include "src/gl/framebuffer.h"
+#include "src/gl/program.h"
+#include "src/gl/vertex_array.h"
+#include "studio/frame/camera_view.h"
+#include "studio/frame/gbuffer_io.h"
+#include "studio/frame/gpu_scene.h"
+
+namespace penumbra::studio {
+
+/// What the camera sees: depth, normals and albedo of the nearest surface of each pixel.
+class GBuffer {
+  public:
+    explicit GBuffer(gl::ShaderLibrary& shaders);
+
+    /// Draws the scene at `width_px` x `height_px`.
+    void render(const GpuScene& scene, const CameraView& view, int width_px, int height_px);
+
+    /// For techniques, which get the depth, the geometric normals and the receiver mask.
+    const View& view() const { return view_; }
+    const gl::Texture& shadingNormals() const { return shadingNormals_; }
+    const gl::Texture& albedo() const { return albedo_; }
+
+  private:
+    void resize(int width_px, int height_px);
+
+    gl::Program program_;
+    gl::VertexArrayHandle vertices_;
+    gl::ConstantBuffer<InstanceConstants> constants_;
+    gl::Texture depth_, geometricNormals_, shadingNormals_, albedo_, receivers_;
+    gl::Framebuffer framebuffer_;
+    View view_;
+};
+
+}  // namespace penumbra::studio

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/frame/gpu_scene.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "studio/frame/conversions.h"
+
+namespace penumbra::studio {
+namespace {
+
+/// Colour is decoded from sRGB by the sampler, so that filtering happens in linear light.
+gl::Texture uploadTexture(const Texture& texture, const Picture& picture) {
+    const int largest = std::max(picture.width_px, picture.height_px);
+    gl::Texture result({.width_px = picture.width_px,
+                        .height_px = picture.height_px,
+                        .levels = int(std::bit_width(unsigned(largest))),
+                        .format = GL_SRGB8_ALPHA8,
+                        .label = picture.name});
+    const GLuint name = result.name();
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(name, 0, 0, 0, picture.width_px, picture.height_px, GL_RGBA, GL_UNSIGNED_BYTE,
+                        picture.rgba.data());
+    glGenerateTextureMipmap(name);
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, texture.minFilter);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, texture.magFilter);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_S, texture.wrapS);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_T, texture.wrapT);
+    return result;
+}
+
+}  // namespace
+
+GpuScene::GpuScene(Device& device, const Scene& scene) : device_(device), scene_(scene) {
+    for (const Texture& texture : scene.textures) {
+        textures_.push_back(uploadTexture(texture, scene.pictures[std::size_t(texture.picture)]));
+    }
+    for (const Mesh& mesh : scene.meshes) shared_.push_back(upload(mesh));
+}
+
+GpuScene::MeshOnDevice GpuScene::upload(const Mesh& mesh) {
+    return {penumbra::Mesh(device_, {.positions = asPenumbra(std::span(mesh.positions)),
+                                     .indices = mesh.indices,
+                                     .uvs = asPenumbra(std::span(mesh.uvs))}),
+            gl::Buffer(std::as_bytes(std::span(mesh.normals)), "mesh normals")};
+}
+
+void GpuScene::update(const SceneMoment& moment) {
+    const auto isDeformed = [](const Instance& instance) { return !instance.positions.empty(); };
+    // Meshes are referred to by address below, so all of them are made first.
+    std::size_t made = 0;
+    for (const Instance& instance : moment.instances) {
+        if (isDeformed(instance) && ++made > deforming_.size()) {
+            deforming_.push_back(upload(scene_.meshes[std::size_t(instance.mesh)]));
+        }
+    }
+
+    drawables_.clear();
+    casters_.clear();
+    std::size_t nextDeforming = 0;
+    for (const Instance& instance : moment.instances) {
+        const Mesh& mesh = scene_.meshes[std::size_t(instance.mesh)];
+        const Material& material = scene_.materials[std::size_t(mesh.material)];
+        MeshOnDevice* onDevice = &shared_[std::size_t(instance.mesh)];
+        if (isDeformed(instance)) {
+            onDevice = &deforming_[nextDeforming++];
+            onDevice->mesh.deform(asPenumbra(std::span(instance.positions)));
+            onDevice->normals.write(std::as_bytes(std::span(instance.normals)));
+        }
+        drawables_.push_back(
+            {&onDevice->mesh, &onDevice->normals, &material, instance.worldFromMesh, instance.receives});
+
+        Caster caster{.mesh = &onDevice->mesh,
+                      .worldFromMesh = toPenumbra(instance.worldFromMesh),
+                      .casts = instance.casts,
+                      .receives = instance.receives};
+        if (material.alpha == Material::Alpha::mask && material.baseColorTexture >= 0) {
+            caster.alphaMask = {texture(material.baseColorTexture), material.baseColor.a, material.alphaCutoff};
+        } else if (material.alpha == Material::Alpha::mask && material.baseColor.a < material.alphaCutoff) {
+            caster.casts = false;  // all of it is a hole
+        }
+        casters_.push_back(caster);
+    }
+}
+
+}  // namespace penumbra::studio

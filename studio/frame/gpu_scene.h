@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "penumbra/penumbra.h"
+#include "src/gl/buffer.h"
+#include "src/gl/texture.h"
+#include "studio/scene/scene.h"
+
+namespace penumbra::studio {
+
+/// A scene on the device: textures, and a mesh for every instance that deforms or mesh that does not.
+class GpuScene {
+  public:
+    /// Uploads everything. `scene` must outlive this.
+    GpuScene(Device& device, const Scene& scene);
+
+    /// Moves everything to `moment`, which must be of this scene.
+    void update(const SceneMoment& moment);
+
+    /// What is drawn: one entry an instance, in the moment's order.
+    struct Drawable {
+        const penumbra::Mesh* mesh = nullptr;
+        const gl::Buffer* normals = nullptr;
+        const Material* material = nullptr;
+        glm::mat4 worldFromMesh{1};
+        bool receives = true;
+    };
+    const std::vector<Drawable>& drawables() const { return drawables_; }
+    const std::vector<Caster>& casters() const { return casters_; }
+
+    /// Texture name for an index into Scene::textures; 0 for -1.
+    GLuint texture(int index) const { return index < 0 ? 0 : textures_[std::size_t(index)].name(); }
+
+  private:
+    struct MeshOnDevice {
+        penumbra::Mesh mesh;
+        gl::Buffer normals;
+    };
+    MeshOnDevice upload(const Mesh& mesh);
+
+    Device& device_;
+    const Scene& scene_;
+    std::vector<gl::Texture> textures_;
+    std::vector<MeshOnDevice> shared_;     ///< one a mesh of the scene
+    std::vector<MeshOnDevice> deforming_;  ///< one an instance that deforms, in their order
+    std::vector<Drawable> drawables_;
+    std::vector<Caster> casters_;
+};
+
+}  // namespace penumbra::studio
