@@ -31,7 +31,7 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string didYouMean(std::string_view name, std::span<const std::string_view> names) {
-    constexpr std::size_t longestTyped = 200;  // the cost is quadratic, and files are not trusted
+    constexpr std::size_t longestTyped = 64;  // the cost is quadratic, and files are not trusted
     if (name.size() > longestTyped) return "";
     std::string_view nearest;
     std::size_t nearestDistance = 0;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// SCENE.lights.json: the lights of a scene, written by hand. docs/lights.md is the manual,
+// docs/lights.schema.json the schema. Names, units and axes are UsdLux's (without `inputs:`).
+#pragma once
+
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "studio/scene/scene.h"
+
+namespace penumbra::studio {
+
+/// A light as the file states it.
+struct SidecarLight {
+    Light light;  ///< all but what depends on the scene: the shape's transform and the texture's index
+    glm::mat4 parentFromLight{1};  ///< rigid
+    std::string node;              ///< the parent, by name; empty: the world
+    std::string textureFile;       ///< relative to the file's folder, or empty
+    int nodeLine = 0, textureLine = 0;
+};
+
+/// What the file says about the nodes of a name.
+struct SidecarNode {
+    std::string name;
+    std::optional<bool> casts, receives;  ///< unset: as the scene has it
+    int line = 0;
+};
+
+struct Sidecar {
+    std::string fileName;                             ///< for messages
+    std::optional<std::vector<SidecarLight>> lights;  ///< unset: the scene keeps its own
+    std::vector<SidecarNode> nodes;
+};
+
+/// Parses the text of a sidecar. Whatever is not understood is an InputError of the form "FILE:LINE:
+/// PROBLEM": unknown keys, wrong types, values out of range, names that are given twice.
+Sidecar parseSidecar(std::string_view json, const std::string& fileName);
+
+/// Reads and parses a file. Throws InputError.
+Sidecar readSidecar(const std::filesystem::path& file);
+
+/// Replaces the scene's lights (if the sidecar has any say in them) and classifies its nodes, at all times. A
+/// light that hangs on a node follows its place and rotation, not its scale. Textures are read from beneath
+/// `folder` only. Throws InputError for an unknown or ambiguous node and for a texture that cannot be read.
+void applySidecar(Scene& scene, const Sidecar& sidecar, const std::filesystem::path& folder);
+
+}  // namespace penumbra::studio

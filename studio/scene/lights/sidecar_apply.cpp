@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstddef>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "studio/errors.h"
+#include "studio/scene/gltf/picture_decode.h"
+#include "studio/scene/lights/nearest_name.h"
+#include "studio/scene/lights/sidecar.h"
+
+namespace penumbra::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t maxSidecar_bytes = 4u << 20, maxPicture_bytes = 256u << 20;
+constexpr std::uint64_t maxPixels = 1ull << 27;  // of all pictures of a sidecar together
+
+std::vector<std::byte> readBytes(const fs::path& file, std::uintmax_t limit_bytes, const std::string& where) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error))
+        throw InputError(fmt::format("{}: '{}' {}", where, file.string(),
+                                     fs::exists(file, error) ? "is not a file" : "does not exist"));
+    const std::uintmax_t size = fs::file_size(file, error);
+    if (error || size > limit_bytes)
+        throw InputError(
+            fmt::format("{}: '{}' is larger than {} MiB", where, file.string(), limit_bytes >> 20));
+    std::vector<std::byte> bytes(size);
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(size)))
+        throw InputError(fmt::format("{}: '{}' cannot be read", where, file.string()));
+    return bytes;
+}
+
+/// A file beneath `folder`, whatever the text tries: no absolute path, no "..", no link that leads out.
+fs::path confined(const std::string& text, const fs::path& folder, const std::string& where) {
+    const fs::path relative(text);
+    bool inside = relative.is_relative() && text.find('\\') == text.npos && text.find(':') == text.npos;
+    for (const fs::path& part : relative) inside = inside && part != "..";
+    const fs::path file = folder / relative;
+    std::error_code error;
+    if (inside && fs::exists(file, error)) {
+        const fs::path target = fs::canonical(file, error)
+                                    .lexically_relative(fs::canonical(folder.empty() ? "." : folder, error));
+        inside = !error && !target.empty() && *target.begin() != "..";
+    }
+    if (!inside)
+        throw InputError(fmt::format(
+            "{}: 'texture:file' must be a path beneath the file's own folder, not '{}'", where, text));
+    return file;
+}
+
+/// Adds the pictures of a sidecar's lights to a scene, each once.
+class TextureLoader {
+  public:
+    TextureLoader(Scene& scene, const fs::path& folder) : scene_(scene), folder_(folder) {}
+
+    int load(const std::string& text, const std::string& where) {
+        const auto [found, isNew] = textures_.try_emplace(text, int(scene_.textures.size()));
+        if (!isNew) return found->second;
+        const std::vector<std::byte> bytes =
+            readBytes(confined(text, folder_, where), maxPicture_bytes, where);
+        constexpr int clampToEdge = 33071;
+        Texture texture;
+        texture.picture = int(scene_.pictures.size());
+        texture.wrapS = texture.wrapT = clampToEdge;
+        scene_.pictures.push_back(decode(bytes, text, where));
+        scene_.textures.push_back(texture);
+        return found->second;
+    }
+
+  private:
+    Picture decode(std::span<const std::byte> bytes, const std::string& text, const std::string& where) {
+        try {
+            const PictureSize size = readPictureSize(bytes, text);
+            pixels_ += std::uint64_t(size.width_px) * size.height_px;
+            if (pixels_ > maxPixels)
+                throw InputError(fmt::format("the pictures have more than {} pixels together", maxPixels));
+            return decodePicture(bytes, text);
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("{}: {}", where, error.what()));
+        }
+    }
+
+    Scene& scene_;
+    const fs::path& folder_;
+    std::map<std::string, int> textures_;
+    std::uint64_t pixels_ = 0;
+};
+
+/// Which nodes of a scene have a name.
+class NodeIndex {
+  public:
+    NodeIndex(const Scene& scene, std::string fileName)
+        : names_(scene.nodeNames), fileName_(std::move(fileName)) {
+        for (std::size_t i = 0; i < names_.size(); ++i) byName_[names_[i]].push_back(int(i));
+    }
+
+    const std::vector<int>& all(const std::string& name, int line) const {
+        const auto found = byName_.find(name);
+        if (found != byName_.end()) return found->second;
+        const std::vector<std::string_view> names(names_.begin(), names_.end());
+        throw InputError(fmt::format("{}:{}: the scene has no node '{}'{}", fileName_, line, name,
+                                     didYouMean(name, names)));
+    }
+
+    int one(const std::string& name, int line) const {
+        const std::vector<int>& nodes = all(name, line);
+        if (nodes.size() > 1)
+            throw InputError(
+                fmt::format("{}:{}: the scene has {} nodes named '{}'; a light can hang on one only",
+                            fileName_, line, nodes.size(), name));
+        return nodes[0];
+    }
+
+  private:
+    const std::vector<std::string>& names_;
+    std::string fileName_;
+    std::map<std::string, std::vector<int>, std::less<>> byName_;
+};
+
+/// The part of a transform that a light can follow: its place and its rotation. The Z axis is kept, Y is made
+/// perpendicular to it and X completes a right-handed frame, also where the transform mirrors. Flattened axes
+/// give way to any that are perpendicular.
+glm::mat4 rigidPart(const glm::mat4& matrix) {
+    const auto unit = [](const glm::vec3& direction, const glm::vec3& fallback) {
+        const float length = glm::length(direction);
+        return length > 1e-12f ? direction / length : fallback;
+    };
+    const glm::vec3 z = unit(glm::vec3(matrix[2]), {0, 0, 1});
+    const glm::vec3 anyAcross =
+        glm::normalize(glm::cross(z, std::abs(z.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0)));
+    const glm::vec3 yOfMatrix = unit(glm::vec3(matrix[1]), anyAcross);
+    const glm::vec3 yAcross = yOfMatrix - glm::dot(yOfMatrix, z) * z;
+    const glm::vec3 y = glm::length(yAcross) > 1e-4f ? glm::normalize(yAcross) : anyAcross;
+    return {glm::vec4(glm::cross(y, z), 0), glm::vec4(y, 0), glm::vec4(z, 0), matrix[3]};
+}
+
+struct AttachedLight {
+    Light light;
+    glm::mat4 parentFromLight{1};
+    std::optional<int> node;
+};
+
+struct NodeFlags {
+    std::optional<bool> casts, receives;
+};
+
+class SidecarMotion : public Scene::Motion {
+  public:
+    SidecarMotion(std::shared_ptr<const Scene::Motion> inner,
+                  std::optional<std::vector<AttachedLight>> lights, std::map<int, NodeFlags> flags)
+        : inner_(std::move(inner)), lights_(std::move(lights)), flags_(std::move(flags)) {}
+
+    SceneMoment at(const Scene& scene, double time_s) const override {
+        SceneMoment moment = inner_->at(scene, time_s);
+        for (Instance& instance : moment.instances)
+            if (const auto found = flags_.find(instance.node); found != flags_.end()) {
+                instance.casts = found->second.casts.value_or(instance.casts);
+                instance.receives = found->second.receives.value_or(instance.receives);
+            }
+        if (lights_) {
+            moment.lights.clear();
+            for (const AttachedLight& attached : *lights_) {
+                const glm::mat4 worldFromParent =
+                    attached.node ? moment.worldFromNode[*attached.node] : glm::mat4(1);
+                Light light = attached.light;
+                light.shape.worldFromLight =
+                    std::bit_cast<Mat4>(rigidPart(worldFromParent * attached.parentFromLight));
+                moment.lights.push_back(std::move(light));
+            }
+        }
+        return moment;
+    }
+
+  private:
+    std::shared_ptr<const Scene::Motion> inner_;
+    std::optional<std::vector<AttachedLight>> lights_;
+    std::map<int, NodeFlags> flags_;  ///< by node
+};
+
+}  // namespace
+
+Sidecar readSidecar(const fs::path& file) {
+    const std::vector<std::byte> bytes = readBytes(file, maxSidecar_bytes, "lights");
+    return parseSidecar({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+}
+
+void applySidecar(Scene& scene, const Sidecar& sidecar, const fs::path& folder) {
+    const NodeIndex nodes(scene, sidecar.fileName);
+    std::map<int, NodeFlags> flags;
+    for (const SidecarNode& node : sidecar.nodes)
+        for (const int index : nodes.all(node.name, node.line)) flags[index] = {node.casts, node.receives};
+
+    std::optional<std::vector<AttachedLight>> lights;
+    if (sidecar.lights) {
+        lights.emplace();
+        TextureLoader textures(scene, folder);
+        for (const SidecarLight& read : *sidecar.lights) {
+            AttachedLight attached{read.light, read.parentFromLight, {}};
+            if (!read.node.empty()) attached.node = nodes.one(read.node, read.nodeLine);
+            if (!read.textureFile.empty())
+                attached.light.texture =
+                    textures.load(read.textureFile, fmt::format("{}:{}", sidecar.fileName, read.textureLine));
+            lights->push_back(std::move(attached));
+        }
+    }
+    scene.motion = std::make_shared<SidecarMotion>(scene.motion, std::move(lights), std::move(flags));
+}
+
+}  // namespace penumbra::studio

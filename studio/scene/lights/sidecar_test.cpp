@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/scene/lights/sidecar.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "studio/errors.h"
+
+namespace penumbra::studio {
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+/// The only light of a file that has the keys `body`.
+Light onlyLight(const std::string& body) {
+    const Sidecar sidecar =
+        parseSidecar(R"({"version": 1, "lights": [{"name": "a", )" + body + "}]}", "chair.lights.json");
+    return sidecar.lights->at(0).light;
+}
+
+std::string errorOf(const std::string& json) {
+    try {
+        parseSidecar(json, "chair.lights.json");
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(Sidecar, TheExampleOfTheManual) {
+    const Sidecar sidecar = parseSidecar(R"({"version": 1, "lights": [
+      {"name": "key", "type": "RectLight", "width": 1.2, "height": 0.6, "intensity": 8000, "color": [1, 0.95, 0.9],
+       "texture:file": "window.png", "translation": [0, 4, 0], "rotation": [-0.7071068, 0, 0, 0.7071068]},
+      {"name": "bulb", "type": "SphereLight", "radius": 0.1, "intensity": 20000, "node": "Lamp"},
+      {"name": "sun", "type": "DistantLight", "angle": 0.53, "intensity": 50000, "rotation": [0, 0, 0, 1]}]})",
+                                         "chair.lights.json");
+    ASSERT_EQ(sidecar.lights->size(), 3u);
+    const SidecarLight& key = sidecar.lights->at(0);
+    EXPECT_EQ(key.light.name, "key");
+    EXPECT_EQ(key.light.shape.shape, LightShape::rect);
+    EXPECT_FLOAT_EQ(key.light.shape.width_m, 1.2f);
+    EXPECT_FLOAT_EQ(key.light.shape.height_m, 0.6f);
+    EXPECT_EQ(key.light.emission.unit, Emission::Unit::nits);
+    EXPECT_FLOAT_EQ(key.light.emission.value.y, 7600);
+    EXPECT_EQ(key.textureFile, "window.png");
+    EXPECT_EQ(key.textureLine, 3);
+    // A quarter turn about -X points the light's -Z down.
+    const glm::vec3 emits = -glm::vec3(key.parentFromLight[2]);
+    EXPECT_NEAR(emits.y, -1, 1e-6);
+    EXPECT_EQ(glm::vec3(key.parentFromLight[3]), glm::vec3(0, 4, 0));
+    EXPECT_EQ(sidecar.lights->at(1).node, "Lamp");
+    EXPECT_FLOAT_EQ(sidecar.lights->at(1).light.shape.radius_m, 0.1f);
+    EXPECT_FLOAT_EQ(sidecar.lights->at(2).light.shape.angle_rad, 0.53f * pi / 180);
+}
+
+TEST(Sidecar, DefaultsAreThoseOfUsdLux) {
+    const Light rect = onlyLight(R"("type": "RectLight")");
+    EXPECT_EQ(rect.shape.width_m, 1);
+    EXPECT_EQ(rect.shape.height_m, 1);
+    EXPECT_EQ(rect.emission.value, glm::vec3(1));
+    EXPECT_FALSE(rect.shape.twoSided);
+    EXPECT_TRUE(rect.castsShadow);
+    EXPECT_FALSE(rect.cone_rad);
+    EXPECT_EQ(onlyLight(R"("type": "DiskLight")").shape.radius_m, 0.5f);
+    EXPECT_EQ(onlyLight(R"("type": "SphereLight")").shape.radius_m, 0.5f);
+    const Light distant = onlyLight(R"("type": "DistantLight")");
+    EXPECT_FLOAT_EQ(distant.shape.angle_rad, 0.53f * pi / 180);
+    EXPECT_EQ(distant.emission.value, glm::vec3(50000));
+}
+
+TEST(Sidecar, ExposureDoubles) {
+    EXPECT_FLOAT_EQ(onlyLight(R"("type": "RectLight", "intensity": 3, "exposure": 4)").emission.value.x, 48);
+    EXPECT_FLOAT_EQ(onlyLight(R"("type": "RectLight", "intensity": 3, "exposure": -1)").emission.value.x,
+                    1.5f);
+}
+
+TEST(Sidecar, NormalizeDividesByTheArea) {
+    const auto value = [](const std::string& body) {
+        return onlyLight(body + R"(, "intensity": 60, "normalize": true)").emission.value.x;
+    };
+    EXPECT_FLOAT_EQ(value(R"("type": "RectLight", "width": 2, "height": 3)"), 10);
+    EXPECT_FLOAT_EQ(value(R"("type": "DiskLight", "radius": 2)"), 60 / (4 * pi));
+    EXPECT_FLOAT_EQ(value(R"("type": "SphereLight", "radius": 2)"), 60 / (16 * pi));
+    EXPECT_FLOAT_EQ(value(R"("type": "DistantLight", "angle": 180)"), 60 / pi);
+}
+
+TEST(Sidecar, WithoutSizeIntensityIsCandelaOrLux) {
+    const auto emission = [](const std::string& body) {
+        return onlyLight(body + R"(, "intensity": 60)").emission;
+    };
+    for (const std::string body :
+         {R"("type": "RectLight", "width": 0)", R"("type": "DiskLight", "radius": 0)",
+          R"("type": "SphereLight", "radius": 0)", R"("type": "RectLight", "width": 0, "normalize": true)"}) {
+        EXPECT_EQ(emission(body).unit, Emission::Unit::candela) << body;
+        EXPECT_EQ(emission(body).value.x, 60) << body;
+    }
+    EXPECT_EQ(emission(R"("type": "DistantLight", "angle": 0)").unit, Emission::Unit::lux);
+
+    // With `normalize` a sphere's intensity L pi r^2 stays the same however small it is, zero included.
+    const float radius_m = 1e-3f;
+    const Light small =
+        onlyLight(R"("type": "SphereLight", "intensity": 60, "normalize": true, "radius": 0.001)");
+    const Light point =
+        onlyLight(R"("type": "SphereLight", "intensity": 60, "normalize": true, "radius": 0)");
+    EXPECT_NEAR(small.emission.value.x * pi * radius_m * radius_m, point.emission.value.x, 1e-4);
+}
+
+TEST(Sidecar, ConesSoftenInwards) {
+    const Light spot =
+        onlyLight(R"("type": "DiskLight", "shaping:cone:angle": 40, "shaping:cone:softness": 0.25)");
+    ASSERT_TRUE(spot.cone_rad);
+    EXPECT_FLOAT_EQ((*spot.cone_rad)[0], 30 * pi / 180);
+    EXPECT_FLOAT_EQ((*spot.cone_rad)[1], 40 * pi / 180);
+}
+
+TEST(Sidecar, FlagsAndNodes) {
+    const Light light = onlyLight(R"("type": "RectLight", "twoSided": true, "shadow:enable": false)");
+    EXPECT_TRUE(light.shape.twoSided);
+    EXPECT_FALSE(light.castsShadow);
+    const Sidecar sidecar = parseSidecar(R"({"version": 1, "nodes": {"Sky": {"casts": false}}})", "f");
+    EXPECT_FALSE(sidecar.lights) << "no say in the lights";
+    ASSERT_EQ(sidecar.nodes.size(), 1u);
+    EXPECT_EQ(sidecar.nodes[0].casts, false);
+    EXPECT_FALSE(sidecar.nodes[0].receives.has_value());
+}
+
+TEST(Sidecar, ErrorsSayWhereAndWhatToDo) {
+    const auto withLight = [](const std::string& body) {
+        return "{\"version\": 1,\n \"lights\": [\n  {\"name\": \"a\", \"type\": \"SphereLight\",\n   " +
+               body + "}]}";
+    };
+    struct Case {
+        std::string json, message;
+    };
+    const std::string f = "chair.lights.json:";
+    const std::vector<Case> cases{
+        {withLight("\"radus\": 1"), f + "4: unknown key 'radus' in SphereLight; did you mean 'radius'?"},
+        {withLight("\"width\": 1"), f + "4: unknown key 'width' in SphereLight"},
+        {withLight("\"radius\":\n\n 1,\r\n\"angle\": 2"), f + "7: unknown key 'angle' in SphereLight"},
+        {withLight("\"radius\": \"1\""), f + "4: 'radius' must be a number, not string"},
+        {withLight("\"radius\": -1"), f + "4: 'radius' must be at least 0, not -1"},
+        {withLight("\"radius\":\n -1\n"), f + "5: 'radius' must be at least 0, not -1"},
+        {withLight("\"radius\": 1e39"), f + "4: 'radius' must be a number of ordinary size, not 1e+39"},
+        {withLight("\"radius\": 1, \"radius\": 2"), f + "4: key 'radius' is given twice"},
+        {withLight("\"color\": [1, 2]"), f + "4: 'color' must have 3 numbers, not 2"},
+        {withLight("\"color\": [1,\n 2,\n true]"), f + "6: 'color'[2] must be a number, not boolean"},
+        {withLight("\"color\": [1, 2, -3]"), f + "4: 'color'[2] must be at least 0, not -3"},
+        {withLight("\"intensity\": 3e38, \"exposure\": 10"),
+         f + "3: the light is too strong: intensity x 2^exposure x color must stay below 3.4e38"},
+        {withLight("\"exposure\": 101"), f + "4: 'exposure' must be between -100 and 100, not 101"},
+        {withLight("\"rotation\": [0, 0, 0, 2]"),
+         f + "4: 'rotation' must be a quaternion [x, y, z, w] of length 1, not 2"},
+        {withLight("\"rotation\": [0, 0, 0, 0]"),
+         f + "4: 'rotation' must be a quaternion [x, y, z, w] of length 1, not 0"},
+        {withLight("\"shaping:cone:softness\": 2"),
+         f + "4: 'shaping:cone:softness' must be between 0 and 1, not 2"},
+        {withLight("\"shadow:enable\": 1"), f + "4: 'shadow:enable' must be a boolean, not number"},
+        {withLight("\"node\": \"\""), f + "4: 'node' must not be empty"},
+        {withLight("\"node\": \"a\\u0007\""), f + "4: 'node' must not contain control characters"},
+        {"{\"version\": 1, \"lights\": [\n{\"name\": \"a\"}]}",
+         f + "2: a light needs a 'type': one of RectLight, DiskLight, SphereLight, DistantLight"},
+        {"{\"version\": 1, \"lights\": [\n{\"name\": \"a\",\n\"type\": \"Rectlight\"}]}",
+         f + "3: unknown type 'Rectlight' of light; did you mean 'RectLight'?"},
+        {"{\"version\": 1, \"lights\": [\n{\"name\": \"a\",\n\"type\": \"DomeLight\"}]}",
+         f + "3: unknown type 'DomeLight' of light; did you mean 'DiskLight'?"},
+        {"{\"version\": 1, \"lights\": [\n{\"type\": \"DiskLight\"}]}", f + "2: a light needs a 'name'"},
+        {"{\"version\": 1, \"lights\": [{\"type\": \"DiskLight\", \"name\": \"b\"},\n"
+         "{\"type\": \"DiskLight\", \"name\": \"b\"}]}",
+         f + "2: two lights are named 'b'"},
+        {"{\"version\": 1, \"lights\": [\n7]}", f + "2: a light must be an object, not number"},
+        {"{\"version\": 1, \"lights\": {}}", f + "1: 'lights' must be an array, not object"},
+        {"{\"version\": 1, \"light\": []}", f + "1: unknown key 'light' in the file; did you mean 'lights'?"},
+        {"{\"version\": 1, \"nodes\": {\n\"A\": {\"cast\": true}}}",
+         f + "2: unknown key 'cast' in node 'A'; did you mean 'casts'?"},
+        {"{\n\"version\": 2}", f + "2: version 2 is not known: this reads version 1"},
+        {"{\"lights\": []}", f + "1: the file needs a \"version\": 1"},
+        {"[]", f + "1: the file must be an object, not array"},
+    };
+    for (const Case& c : cases) EXPECT_EQ(errorOf(c.json), c.message) << c.json;
+}
+
+TEST(Sidecar, WhatIsNotJsonIsAnError) {
+    EXPECT_TRUE(
+        errorOf("{\"version\": 1,\n\n nonsense}").starts_with("chair.lights.json:3: not JSON: syntax error"))
+        << errorOf("{\"version\": 1,\n\n nonsense}");
+    for (const std::string text :
+         {"", "{", "{\"version\": 1", "{\"version\": 1}}", "\xff\xfe", "{\"version\": 1e999}"})
+        EXPECT_TRUE(errorOf(text).starts_with("chair.lights.json:1: ")) << errorOf(text);
+}
+
+TEST(Sidecar, HostileSizesAreRefusedBeforeTheyCost) {
+    EXPECT_EQ(errorOf(std::string(1'000'000, '[')), "chair.lights.json:1: nested more than 64 levels deep");
+    EXPECT_EQ(errorOf(std::string(5u << 20, ' ')), "chair.lights.json: larger than 4 MiB");
+    std::string zeros = "[0";
+    for (int i = 0; i < 100'000; ++i) zeros += ",0";
+    EXPECT_EQ(errorOf(zeros + "]"), "chair.lights.json:1: more than 20000 values");
+    EXPECT_EQ(errorOf("{\"" + std::string(1'000'000, 'a') + "\": 1}").substr(0, 35),
+              "chair.lights.json:1: unknown key 'a");
+}
+
+// Every prefix, and every single changed byte, of a good file: an InputError or a sidecar, nothing else.
+TEST(Sidecar, SurvivesDamage) {
+    const std::string good =
+        R"({"version": 1, "lights": [{"name": "k", "type": "RectLight", "color": [1, 0.9, 0.8],
+        "rotation": [0, 0, 0, 1], "texture:file": "a.png"}], "nodes": {"N": {"casts": true}}})";
+    const auto parse = [](const std::string& text) {
+        try {
+            parseSidecar(text, "f");
+        } catch (const InputError&) {
+        }
+    };
+    for (std::size_t length = 0; length <= good.size(); ++length)
+        EXPECT_NO_THROW(parse(good.substr(0, length)));
+    for (std::size_t i = 0; i < good.size(); ++i)
+        for (const char c : {'\0', '"', '{', '9', '-', '\n', '\xff'}) {
+            std::string damaged = good;
+            damaged[i] = c;
+            EXPECT_NO_THROW(parse(damaged)) << damaged;
+        }
+}
+
+/// Two nodes; the second moves with time, turned and scaled. One instance on each.
+class TwoNodes : public Scene::Motion {
+  public:
+    SceneMoment at(const Scene&, double time_s) const override {
+        SceneMoment moment;
+        moment.time_s = time_s;
+        // A quarter turn about Y (x to -z), scaled by 2 and mirrored in its own x.
+        const glm::mat4 lamp({0, 0, 2, 0}, {0, 2, 0, 0}, {2, 0, 0, 0}, {float(time_s), 1, 0, 1});
+        moment.worldFromNode = {glm::mat4(1), lamp};
+        moment.instances = {{0, 0, glm::mat4(1)}, {0, 1, lamp}};
+        moment.lights = {Light{.name = "of the file"}};
+        return moment;
+    }
+};
+
+Scene twoNodes() {
+    Scene scene;
+    scene.nodeNames = {"Sky", "Lamp"};
+    scene.motion = std::make_shared<TwoNodes>();
+    return scene;
+}
+
+std::string applyErrorOf(const std::string& json, Scene scene = twoNodes(),
+                         const std::filesystem::path& folder = ".") {
+    try {
+        applySidecar(scene, parseSidecar(json, "chair.lights.json"), folder);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(SidecarOnAScene, ReplacesTheLightsAndFollowsNodes) {
+    Scene scene = twoNodes();
+    applySidecar(scene,
+                 parseSidecar(R"({"version": 1, "lights": [
+        {"name": "fixed", "type": "SphereLight", "translation": [1, 2, 3]},
+        {"name": "carried", "type": "DiskLight", "radius": 0.25, "node": "Lamp", "translation": [0, 0, 1]}]})",
+                              "f"),
+                 ".");
+    const SceneMoment moment = scene.at(5);
+    ASSERT_EQ(moment.lights.size(), 2u);
+    EXPECT_EQ(std::bit_cast<glm::mat4>(moment.lights[0].shape.worldFromLight)[3], glm::vec4(1, 2, 3, 1));
+    const Light& carried = moment.lights[1];
+    const glm::mat4 worldFromLight = std::bit_cast<glm::mat4>(carried.shape.worldFromLight);
+    EXPECT_EQ(worldFromLight[3], glm::vec4(7, 1, 0, 1)) << "the node scales where the light is";
+    EXPECT_EQ(carried.shape.radius_m, 0.25f) << "but not how large it is";
+    EXPECT_EQ(worldFromLight[2], glm::vec4(1, 0, 0, 0));
+    EXPECT_EQ(worldFromLight[1], glm::vec4(0, 1, 0, 0));
+    EXPECT_EQ(worldFromLight[0], glm::vec4(0, 0, -1, 0)) << "right-handed, though the node mirrors";
+}
+
+TEST(SidecarOnAScene, WithoutLightsKeepsThemAndClassifiesNodes) {
+    Scene scene = twoNodes();
+    applySidecar(scene,
+                 parseSidecar(R"({"version": 1, "nodes": {"Sky": {"casts": false, "receives": false},
+                                                                  "Lamp": {"receives": false}}})",
+                              "f"),
+                 ".");
+    const SceneMoment moment = scene.at(0);
+    ASSERT_EQ(moment.lights.size(), 1u);
+    EXPECT_EQ(moment.lights[0].name, "of the file");
+    EXPECT_FALSE(moment.instances[0].casts);
+    EXPECT_FALSE(moment.instances[0].receives);
+    EXPECT_TRUE(moment.instances[1].casts);
+    EXPECT_FALSE(moment.instances[1].receives);
+}
+
+TEST(SidecarOnAScene, AnEmptyListOfLightsIsNone) {
+    Scene scene = twoNodes();
+    applySidecar(scene, parseSidecar(R"({"version": 1, "lights": []})", "f"), ".");
+    EXPECT_TRUE(scene.at(0).lights.empty());
+}
+
+TEST(SidecarOnAScene, UnknownAndAmbiguousNodes) {
+    EXPECT_EQ(applyErrorOf("{\"version\": 1, \"nodes\": {\n\"Lmp\": {}}}"),
+              "chair.lights.json:2: the scene has no node 'Lmp'; did you mean 'Lamp'?");
+    const std::string hung =
+        "{\"version\": 1, \"lights\": [{\"name\": \"a\", \"type\": \"DiskLight\",\n \"node\": \"Lamp\"}]}";
+    Scene scene = twoNodes();
+    scene.nodeNames = {"Lamp", "Lamp"};
+    EXPECT_EQ(applyErrorOf(hung, scene),
+              "chair.lights.json:2: the scene has 2 nodes named 'Lamp'; a light can hang on one only");
+    EXPECT_EQ(applyErrorOf("{\"version\": 1, \"nodes\": {\"Lamp\": {\"casts\": false}}}", scene), "no error");
+}
+
+class SidecarTextures : public testing::Test {
+  protected:
+    std::filesystem::path folder =
+        std::filesystem::temp_directory_path() /
+        ("penumbra-sidecar-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+
+    void SetUp() override { std::filesystem::create_directories(folder / "sub"); }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+
+    void write(const std::filesystem::path& name, const std::string& content) const {
+        std::ofstream(folder / name, std::ios::binary) << content;
+    }
+
+    static std::string windowed(const std::string& file) {
+        return "{\"version\": 1, \"lights\": [{\"name\": \"a\", \"type\": \"RectLight\",\n \"texture:file\": "
+               "\"" +
+               file + "\"}]}";
+    }
+};
+
+/// A PNG of 1 x 1 pixel, red.
+const std::string& redPixel() {
+    static constexpr unsigned char bytes[] = {
+        0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,
+        0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00,
+        0x00, 0x90, 0x77, 0x53, 0xde, 0x00, 0x00, 0x00, 0x0c, 0x49, 0x44, 0x41, 0x54, 0x78,
+        0x9c, 0x63, 0xf8, 0xcf, 0xc0, 0x00, 0x00, 0x03, 0x01, 0x01, 0x00, 0xc9, 0xfe, 0x92,
+        0xef, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+    static const std::string png(std::begin(bytes), std::end(bytes));
+    return png;
+}
+
+TEST_F(SidecarTextures, AreReadOnceAndBelongToTheScene) {
+    write("sub/red.png", redPixel());
+    Scene scene = twoNodes();
+    applySidecar(scene,
+                 parseSidecar(R"({"version": 1, "lights": [
+        {"name": "a", "type": "RectLight", "texture:file": "sub/red.png"},
+        {"name": "b", "type": "RectLight"},
+        {"name": "c", "type": "RectLight", "texture:file": "sub/red.png"}]})",
+                              "f"),
+                 folder);
+    ASSERT_EQ(scene.textures.size(), 1u);
+    ASSERT_EQ(scene.pictures.size(), 1u);
+    EXPECT_EQ(scene.pictures[0].rgba, (std::vector<std::uint8_t>{255, 0, 0, 255}));
+    const auto lights = scene.at(0).lights;
+    EXPECT_EQ(lights[0].texture, 0);
+    EXPECT_EQ(lights[1].texture, -1);
+    EXPECT_EQ(lights[2].texture, 0);
+}
+
+TEST_F(SidecarTextures, AreConfinedToTheFolder) {
+    write("outside.png", redPixel());
+    write("sub/inside.png", redPixel());
+    std::filesystem::create_symlink(folder / "outside.png", folder / "sub/link.png");
+    const auto refused = [&](const std::string& file) {
+        EXPECT_EQ(applyErrorOf(windowed(file), twoNodes(), folder / "sub"),
+                  "chair.lights.json:2: 'texture:file' must be a path beneath the file's own folder, not '" +
+                      file + "'");
+    };
+    refused("../outside.png");
+    refused("../sub/inside.png");
+    refused((folder / "outside.png").string());
+    refused("link.png");
+    refused("http://example.org/a.png");
+    EXPECT_EQ(applyErrorOf(windowed("inside.png"), twoNodes(), folder / "sub"), "no error");
+}
+
+TEST_F(SidecarTextures, ThatAreMissingOrBroken) {
+    write("broken.png", redPixel().substr(0, 40));
+    EXPECT_EQ(applyErrorOf(windowed("none.png"), twoNodes(), folder),
+              "chair.lights.json:2: '" + (folder / "none.png").string() + "' does not exist");
+    EXPECT_EQ(applyErrorOf(windowed("sub"), twoNodes(), folder),
+              "chair.lights.json:2: '" + (folder / "sub").string() + "' is not a file");
+    EXPECT_TRUE(applyErrorOf(windowed("broken.png"), twoNodes(), folder)
+                    .starts_with("chair.lights.json:2: picture 'broken.png' is damaged"))
+        << applyErrorOf(windowed("broken.png"), twoNodes(), folder);
+}
+
+}  // namespace
+}  // namespace penumbra::studio

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/scene/open_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "studio/errors.h"
+#include "studio/scene/builtin/builtin.h"
+#include "studio/scene/builtin/placing.h"
+#include "studio/scene/gltf/gltf.h"
+#include "studio/scene/lights/nearest_name.h"
+#include "studio/scene/lights/sidecar.h"
+
+namespace penumbra::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Gives a scene the light or the camera that it lacks. Both stand still.
+class WithDefaults : public Scene::Motion {
+  public:
+    WithDefaults(std::shared_ptr<const Scene::Motion> inner, std::optional<Light> light,
+                 std::optional<Camera> camera)
+        : inner_(std::move(inner)), light_(std::move(light)), camera_(std::move(camera)) {}
+
+    SceneMoment at(const Scene& scene, double time_s) const override {
+        SceneMoment moment = inner_->at(scene, time_s);
+        if (light_) moment.lights.push_back(*light_);
+        if (camera_) moment.cameras.push_back(*camera_);
+        return moment;
+    }
+
+  private:
+    std::shared_ptr<const Scene::Motion> inner_;
+    std::optional<Light> light_;
+    std::optional<Camera> camera_;
+};
+
+/// The bounds at all times, near enough: over eight moments of the animation that plays.
+Bounds boundsOverTime(const Scene& scene, const SceneMoment& start, int animation) {
+    Bounds bounds = start.bounds;
+    if (animation < 0 || std::size_t(animation) >= scene.animations.size()) return bounds;
+    constexpr int steps = 8;
+    for (int step = 1; step < steps; ++step) {
+        const Bounds moved = scene.at(scene.animations[animation].duration_s * step / steps).bounds;
+        if (moved.empty()) continue;
+        bounds.include(moved.min);
+        bounds.include(moved.max);
+    }
+    return bounds;
+}
+
+void addDefaults(Scene& scene, int animation) {
+    const SceneMoment start = scene.at(0);
+    if (!start.lights.empty() && !start.cameras.empty()) return;
+    const Bounds bounds = boundsOverTime(scene, start, animation);
+    std::optional<Light> light;
+    std::optional<Camera> camera;
+    if (start.lights.empty()) {
+        light = keyLight("default key", bounds);
+        scene.warnings.push_back(fmt::format("{} has no light: added a key light, {:.3g} m square, over it",
+                                             scene.name, light->shape.width_m));
+    }
+    if (start.cameras.empty()) {
+        camera = framingCamera("default", bounds);
+        scene.warnings.push_back(
+            fmt::format("{} has no camera: added one that frames everything", scene.name));
+    }
+    scene.motion = std::make_shared<WithDefaults>(scene.motion, std::move(light), std::move(camera));
+}
+
+bool isBuiltin(const std::string& name) {
+    return std::ranges::find(builtinScenes(), name, &BuiltinInfo::name) != builtinScenes().end();
+}
+
+Scene openBuiltin(const std::string& name, const OpenOptions& options) {
+    Scene scene = makeBuiltin(name);
+    if (options.scene.value_or(0) != 0)
+        throw InputError(
+            fmt::format("built-in scene '{}' has no scene {}: it has one, 0", name, *options.scene));
+    if (options.animation < -1 || options.animation > std::max(0, int(scene.animations.size()) - 1))
+        throw InputError(fmt::format("built-in scene '{}' has no animation {}: it has {}", name,
+                                     options.animation, scene.animations.size()));
+    return scene;
+}
+
+Scene openFile(const fs::path& file, const OpenOptions& options) {
+    std::error_code error;
+    if (fs::is_directory(file, error))
+        throw InputError(fmt::format("'{}' is a directory: name a .gltf or .glb file in it", file.string()));
+    if (!fs::exists(file, error)) {
+        std::vector<std::string_view> names;
+        for (const BuiltinInfo& info : builtinScenes()) names.push_back(info.name);
+        const std::string hint = didYouMean(file.string(), names);
+        throw InputError(
+            fmt::format("there is no file and no built-in scene '{}'{}", file.string(),
+                        hint.empty() ? "; 'penumbra list scenes' names the built-in ones" : hint));
+    }
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return char(std::tolower(c)); });
+    if (extension != ".gltf" && extension != ".glb")
+        throw InputError(
+            fmt::format("'{}' is not a scene that can be read: only glTF 2.0, .gltf or .glb", file.string()));
+    GltfOptions gltf;
+    gltf.scene = options.scene;
+    gltf.animation = options.animation;
+    return loadGltf(file, gltf);
+}
+
+}  // namespace
+
+Scene openScene(const std::string& nameOrPath, const OpenOptions& options) {
+    const bool builtin = isBuiltin(nameOrPath);
+    Scene scene = builtin ? openBuiltin(nameOrPath, options) : openFile(nameOrPath, options);
+
+    std::optional<fs::path> lightsFile = options.lightsFile;
+    if (!lightsFile && !builtin) {
+        const fs::path sidecar = fs::path(nameOrPath).replace_extension(".lights.json");
+        std::error_code error;
+        if (fs::exists(sidecar, error)) lightsFile = sidecar;
+    }
+    if (lightsFile) applySidecar(scene, readSidecar(*lightsFile), lightsFile->parent_path());
+    addDefaults(scene, options.animation);
+    return scene;
+}
+
+}  // namespace penumbra::studio

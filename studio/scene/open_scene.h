@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one door to scenes: a built-in by name, or a glTF file with the lights that lie beside it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "studio/scene/scene.h"
+
+namespace penumbra::studio {
+
+struct OpenOptions {
+    /// Lights from this file (see docs/lights.md) instead of from SCENE.lights.json beside the scene.
+    std::optional<std::filesystem::path> lightsFile;
+    int animation = 0;         ///< which clip plays, of a file that has any; -1: the rest pose
+    std::optional<int> scene;  ///< which of a glTF file's scenes; the file's own default where unset
+};
+
+/// Opens a built-in scene of this name, or else the .gltf or .glb file (`./NAME` for a file named like a
+/// built-in).
+///
+/// Its lights are those of `lightsFile`, else of the sidecar (chair.lights.json beside chair.glb) if there is
+/// one, else its own. A scene that has none gets a key light over it, and one without a camera gets one that
+/// frames everything at all times; both are said in Scene::warnings.
+///
+/// Throws InputError, which names the file and the remedy, for whatever is missing or wrong.
+Scene openScene(const std::string& nameOrPath, const OpenOptions& options = {});
+
+}  // namespace penumbra::studio
