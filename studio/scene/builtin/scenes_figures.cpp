@@ -48,8 +48,8 @@ Scene primitives() {
     scene.place("spire behind", spire, at({-2.6f, 0.65f, -2.0f}));
 
     scene.light(rectLight("key", 1, 1, {-2.2f, 4.2f, 2.0f}, {0, 0.4f, 0}, illuminance_lux));
-    scene.camera(penumbra::studio::camera("front", {2.4f, 4.2f, 7.4f}, {-0.1f, 0.4f, 0}, 0.65f));
-    scene.camera(penumbra::studio::camera("cylinder", {0.3f, 2.1f, 2.6f}, {-0.9f, 0.2f, -0.7f}, 0.65f));
+    scene.camera(penumbra::studio::camera("front", {2.2f, 4.4f, 7.8f}, {-0.1f, 0.35f, 0.1f}, 0.65f));
+    scene.camera(penumbra::studio::camera("cylinder", {0.5f, 3.4f, 0.4f}, {-1.05f, 0.2f, -0.95f}, 0.65f));
     return std::move(scene).build();
 }
 
@@ -78,12 +78,12 @@ Scene sphere() {
 Scene diskAndSphere() {
     SceneBuilder scene("disk-and-sphere");
     scene.ground(16);
-    const int plate = scene.mesh("plate", penumbra::studio::cylinder(0.7f, 0.04f, 96), slate);
+    const int plate = scene.mesh("plate", penumbra::studio::cylinder(0.55f, 0.04f, 96), slate);
     const int ball = scene.mesh("sphere", penumbra::studio::sphere(0.6f, 96, 48), terracotta);
-    scene.place("plate", plate, at({-0.55f, 2.3f, 0.1f}));
+    scene.place("plate", plate, at({-0.9f, 2.3f, 0.1f}));
     scene.place("sphere", ball, at({0, 0.75f, 0}));
     scene.light(diskLight("key", 0.5f, {-0.9f, 5, 0.2f}, {0, 0, 0}, illuminance_lux));
-    scene.camera(penumbra::studio::camera("front", {1.6f, 3.0f, 6.0f}, {-0.1f, 1.0f, 0}));
+    scene.camera(penumbra::studio::camera("front", {1.2f, 3.4f, 5.6f}, {-0.45f, 0.9f, 0}));
     return std::move(scene).build();
 }
 
@@ -100,7 +100,7 @@ Scene overlappingBlockers() {
     scene.place("high rod", rod, at({-0.3f, 2.3f, 0.2f}, quarterTurn_rad, {1, 0, 0.7f}));
     scene.place("highest ball", ball, at({-0.5f, 3.1f, 0.3f}));
     scene.light(rectLight("key", 0.7f, 0.7f, {-0.8f, 6, 0.6f}, {0, 0, 0}, illuminance_lux));
-    scene.camera(penumbra::studio::camera("front", {2.6f, 4.6f, 5.6f}, {0, 0.9f, 0}));
+    scene.camera(penumbra::studio::camera("front", {2.8f, 5.0f, 6.6f}, {0, 1.1f, 0}));
     return std::move(scene).build();
 }
 

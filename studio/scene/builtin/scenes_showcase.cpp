@@ -95,7 +95,7 @@ Scene moving() {
     });
 
     scene.light(rectLight("key", 1, 1, {-2.0f, 4.6f, 2.4f}, {0, 0.4f, 0}, 1000));
-    scene.camera(camera("front", {1.6f, 3.2f, 6.4f}, {0, 0.8f, 0}));
+    scene.camera(camera("front", {1.8f, 3.4f, 6.8f}, {0.2f, 0.8f, 0}));
     return std::move(scene).build();
 }
 
@@ -110,7 +110,7 @@ Scene texturedWindow() {
     scene.place("right pillar", pillar, at({-0.6f, 0.9f, 1}));
     scene.place("ball", ball, at({0.7f, 0.4f, 0.6f}));
     scene.place("bench", bench, at({0.8f, 0.2f, -0.9f}, 0.3f));
-    Light window = rectLight("window", 2, 2, {-3, 2, 0}, {0.3f, 0.2f, 0}, 1500);
+    Light window = rectLight("window", 1.6f, 1.6f, {-2.8f, 3.2f, 0.4f}, {0.2f, 0.2f, 0}, 4000);
     window.texture = scene.texture(stainedGlass());
     scene.light(window);
     scene.camera(camera("front", {3.4f, 3.0f, 4.0f}, {0.1f, 0.4f, 0}));
@@ -133,9 +133,9 @@ Scene manyLights() {
     scene.light(rectLight("warm panel", 1.2f, 0.8f, {-3, 3.4f, 1.8f}, target, 450, {1, 0.55f, 0.25f}));
     scene.light(rectLight("cool strip", 2.4f, 0.1f, {0, 3.6f, -2.8f}, target, 350, {0.3f, 0.55f, 1}));
     scene.light(diskLight("green spot", 0.4f, {3.2f, 3, 1.4f}, target, 300, {0.35f, 1, 0.4f}));
-    scene.light(sphereLight("rose bulb", 0.25f, {1.0f, 2.0f, 2.6f}, target, 250, {1, 0.3f, 0.5f}));
+    scene.light(sphereLight("rose bulb", 0.25f, {1.4f, 3.2f, 3.2f}, target, 250, {1, 0.3f, 0.5f}));
     scene.light(distantLight("moon", 2 * pi / 180, {0.5f, -1, -0.35f}, 150, {0.75f, 0.85f, 1}));
-    scene.camera(camera("front", {0.9f, 3.2f, 6.2f}, {0, 0.4f, 0}));
+    scene.camera(camera("front", {0.8f, 3.0f, 5.0f}, {0.1f, 0.4f, -0.1f}));
     return std::move(scene).build();
 }
 
