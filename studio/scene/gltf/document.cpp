@@ -56,8 +56,10 @@ Chunks splitGlb(std::span<const std::byte> bytes) {
     return chunks;
 }
 
-// Before the parser sees the text: parsers and destructors of nested values recurse.
-void checkNesting(std::string_view text) {
+// Before the parser sees the text: parsers and destructors of nested values recurse. Returns a bound on the
+// number of values, for each but the first follows a comma, a colon or an opening bracket.
+std::uint64_t scanJson(std::string_view text) {
+    std::uint64_t values = 1;
     int depth = 0;
     bool inString = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -69,22 +71,25 @@ void checkNesting(std::string_view text) {
                 inString = false;
         } else if (c == '"') {
             inString = true;
+        } else if (c == ',' || c == ':') {
+            ++values;
         } else if (c == '{' || c == '[') {
+            ++values;
             if (++depth > maxJsonDepth)
                 throw PlaceError("", fmt::format("the JSON nests deeper than {} levels", maxJsonDepth));
         } else if (c == '}' || c == ']') {
             --depth;
         }
     }
+    return values;
 }
 
 nlohmann::json parseJson(std::span<const std::byte> bytes, Budget& budget) {
     if (bytes.size() > maxJson_bytes) throw PlaceError("", "the JSON is larger than 64 MiB");
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    checkNesting(text);
-    // A parsed value takes 16 bytes, a member some 80 more; the shortest texts of them are "0," and
-    // "\"\":0,".
-    budget.charge(bytes.size(), 16, "");
+    // A parsed value, its key and a view of it take some 150 bytes; texts are copied once.
+    budget.charge(scanJson(text), 150, "");
+    budget.charge(text.size(), 1, "");
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& error) {

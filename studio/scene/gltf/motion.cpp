@@ -36,27 +36,34 @@ glm::vec3 turnedNormal(const glm::mat3& m, const glm::vec3& normal) {
     return length > 0 && std::isfinite(length) ? turned / length : normal;
 }
 
-Bounds boundsOf(const std::vector<glm::vec3>& positions, const glm::mat4& worldFromMesh) {
+// In the world. NaN passes comparisons unnoticed, so that the bounds alone would not show an overflow.
+Bounds boundsOf(const std::vector<glm::vec3>& positions, const glm::mat4& worldFromMesh, const Node& node) {
     Bounds bounds;
-    for (const glm::vec3& position : positions)
-        bounds.include(glm::vec3(worldFromMesh * glm::vec4(position, 1)));
+    for (const glm::vec3& position : positions) {
+        const glm::vec3 posWorld(worldFromMesh * glm::vec4(position, 1));
+        if (!isFinite(posWorld)) throw PlaceError(node.pointer, "its mesh overflows");
+        bounds.include(posWorld);
+    }
     return bounds;
 }
 
-// NaN passes comparisons unnoticed, so that bounds alone would not show it.
-void checkFinite(const std::vector<glm::vec3>& positions, const Node& node) {
-    for (const glm::vec3& position : positions)
-        if (!isFinite(position)) throw PlaceError(node.pointer, "its deformed mesh overflows");
-}
+// Placing and measuring this many takes a few seconds.
+constexpr std::uint64_t maxInstancedVertices = 1u << 29;
 
 }  // namespace
 
 GltfMotion::GltfMotion(Parts parts, Budget& budget, Scene& scene) : parts_(std::move(parts)) {
     const std::vector<Node>& nodes = parts_.hierarchy.nodes;
+    std::uint64_t instancedVertices = 0;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (!nodes[i].inScene || nodes[i].mesh < 0) continue;
         for (const MeshGroup::Part& part : parts_.meshes[std::size_t(nodes[i].mesh)].parts) {
             const Mesh& mesh = scene.meshes[std::size_t(part.mesh)];
+            instancedVertices += mesh.positions.size();
+            if (instancedVertices > maxInstancedVertices)
+                throw PlaceError(nodes[i].pointer,
+                                 "with its mesh, more vertices are drawn than can be handled",
+                                 "draw fewer copies");
             budget.charge(1, sizeof(Placement) + sizeof(Instance), nodes[i].pointer);
             if (mesh.deforms()) budget.charge(mesh.positions.size(), 2 * sizeof(glm::vec3), nodes[i].pointer);
             placements_.push_back({.node = int(i), .part = part});
@@ -68,7 +75,9 @@ GltfMotion::GltfMotion(Parts parts, Budget& budget, Scene& scene) : parts_(std::
     for (Placement& placement : placements_) {
         const Mesh& mesh = scene.meshes[std::size_t(placement.part.mesh)];
         placement.restWorldFromMesh = rest.worldFromNode[std::size_t(placement.node)];
-        if (!mesh.deforms()) placement.restBounds = boundsOf(mesh.positions, placement.restWorldFromMesh);
+        if (!mesh.deforms())
+            placement.restBounds =
+                boundsOf(mesh.positions, placement.restWorldFromMesh, nodes[std::size_t(placement.node)]);
     }
     for (const PlacedLight& placed : parts_.lights) {
         const glm::mat3 m(rest.worldFromNode[std::size_t(placed.node)]);
@@ -167,7 +176,6 @@ void GltfMotion::deform(const Mesh& mesh, const Placement& placement, const Pose
         // A skin places its mesh by its joints alone, whatever the node's own transform.
         instance.worldFromMesh = glm::mat4(1);
     }
-    checkFinite(instance.positions, node);
 }
 
 Instance GltfMotion::instanceAt(const Scene& scene, const Placement& placement, const Pose& pose) const {
@@ -191,13 +199,11 @@ SceneMoment GltfMotion::at(const Scene& scene, double time_s) const try {
     for (const Placement& placement : placements_) {
         const Instance& instance = moment.instances.emplace_back(instanceAt(scene, placement, pose));
         const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
-        const Bounds bounds = mesh.deforms() ? boundsOf(instance.positions, instance.worldFromMesh)
-                              : instance.worldFromMesh == placement.restWorldFromMesh
-                                  ? placement.restBounds
-                                  : boundsOf(mesh.positions, instance.worldFromMesh);
-        if (!isFinite(bounds.min) || !isFinite(bounds.max))
-            throw PlaceError(parts_.hierarchy.nodes[std::size_t(instance.node)].pointer,
-                             "its mesh overflows");
+        const Node& node = parts_.hierarchy.nodes[std::size_t(instance.node)];
+        const bool isAtRest = !mesh.deforms() && instance.worldFromMesh == placement.restWorldFromMesh;
+        const Bounds bounds = isAtRest ? placement.restBounds
+                                       : boundsOf(mesh.deforms() ? instance.positions : mesh.positions,
+                                                  instance.worldFromMesh, node);
         moment.bounds.include(bounds.min);
         moment.bounds.include(bounds.max);
     }
