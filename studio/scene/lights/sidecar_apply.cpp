@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "studio/errors.h"
+#include "studio/scene/gltf/lights.h"
 #include "studio/scene/gltf/picture_decode.h"
 #include "studio/scene/lights/nearest_name.h"
 #include "studio/scene/lights/sidecar.h"
@@ -127,23 +128,6 @@ class NodeIndex {
     std::map<std::string, std::vector<int>, std::less<>> byName_;
 };
 
-/// The part of a transform that a light can follow: its place and its rotation. The Z axis is kept, Y is made
-/// perpendicular to it and X completes a right-handed frame, also where the transform mirrors. Flattened axes
-/// give way to any that are perpendicular.
-glm::mat4 rigidPart(const glm::mat4& matrix) {
-    const auto unit = [](const glm::vec3& direction, const glm::vec3& fallback) {
-        const float length = glm::length(direction);
-        return length > 1e-12f ? direction / length : fallback;
-    };
-    const glm::vec3 z = unit(glm::vec3(matrix[2]), {0, 0, 1});
-    const glm::vec3 anyAcross =
-        glm::normalize(glm::cross(z, std::abs(z.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0)));
-    const glm::vec3 yOfMatrix = unit(glm::vec3(matrix[1]), anyAcross);
-    const glm::vec3 yAcross = yOfMatrix - glm::dot(yOfMatrix, z) * z;
-    const glm::vec3 y = glm::length(yAcross) > 1e-4f ? glm::normalize(yAcross) : anyAcross;
-    return {glm::vec4(glm::cross(y, z), 0), glm::vec4(y, 0), glm::vec4(z, 0), matrix[3]};
-}
-
 struct AttachedLight {
     Light light;
     glm::mat4 parentFromLight{1};
@@ -174,7 +158,7 @@ class SidecarMotion : public Scene::Motion {
                     attached.node ? moment.worldFromNode[*attached.node] : glm::mat4(1);
                 Light light = attached.light;
                 light.shape.worldFromLight =
-                    std::bit_cast<Mat4>(rigidPart(worldFromParent * attached.parentFromLight));
+                    std::bit_cast<Mat4>(gltf::rigidPart(worldFromParent * attached.parentFromLight));
                 moment.lights.push_back(std::move(light));
             }
         }
