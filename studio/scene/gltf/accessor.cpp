@@ -114,6 +114,20 @@ std::vector<Vector> readVectors(const Accessor& accessor, Budget& budget) {
     return vectors;
 }
 
+// The bytes of `count` elements of a view, or a PlaceError at `json`.
+std::span<const std::byte> elements(const JsonView& json, const BufferView& view, std::uint64_t byteOffset,
+                                    std::uint64_t count, std::uint64_t stride_bytes,
+                                    std::uint64_t element_bytes, std::size_t alignment_bytes) {
+    // Views begin anywhere in a buffer, but the sum of both offsets must be aligned.
+    if ((view.offset_bytes + byteOffset) % alignment_bytes != 0 || stride_bytes % alignment_bytes != 0)
+        json.fail(fmt::format("its elements are not aligned to {} bytes", alignment_bytes));
+    const std::uint64_t end = byteOffset + stride_bytes * (count - 1) + element_bytes;
+    if (end > view.bytes.size())
+        json.fail(fmt::format("its {} elements end at byte {} of a buffer view of {}", count, end,
+                              view.bytes.size()));
+    return view.bytes.subspan(byteOffset, end - byteOffset);
+}
+
 }  // namespace
 
 std::size_t sizeOf_bytes(ComponentType type) {
@@ -160,24 +174,6 @@ void Accessors::readViews(const JsonView& root) {
         views_.push_back({std::span(*bytes).subspan(offset, length), offset, std::size_t(stride)});
     }
 }
-
-namespace {
-
-// The bytes of `count` elements of a view, or a PlaceError at `json`.
-std::span<const std::byte> elements(const JsonView& json, const BufferView& view, std::uint64_t byteOffset,
-                                    std::uint64_t count, std::uint64_t stride_bytes,
-                                    std::uint64_t element_bytes, std::size_t alignment_bytes) {
-    // Views begin anywhere in a buffer, but the sum of both offsets must be aligned.
-    if ((view.offset_bytes + byteOffset) % alignment_bytes != 0 || stride_bytes % alignment_bytes != 0)
-        json.fail(fmt::format("its elements are not aligned to {} bytes", alignment_bytes));
-    const std::uint64_t end = byteOffset + stride_bytes * (count - 1) + element_bytes;
-    if (end > view.bytes.size())
-        json.fail(fmt::format("its {} elements end at byte {} of a buffer view of {}", count, end,
-                              view.bytes.size()));
-    return view.bytes.subspan(byteOffset, end - byteOffset);
-}
-
-}  // namespace
 
 Accessor Accessors::readAccessor(const JsonView& json, Budget& budget) const {
     const ElementShape shape = shapeOf(json.at("type"));

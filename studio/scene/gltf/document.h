@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a file's bytes to a JSON document that is safe to walk.
+//
+// The loader reads the JSON itself and not through tinygltf: that narrows 64-bit integers to 32, leaves out
+// primitives and channels that it cannot parse, and refuses sparse indices without a base, so that a check of
+// what it returns would come too late, and could not say where in the file a fault is.
 #pragma once
 
 #include <filesystem>

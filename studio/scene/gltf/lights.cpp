@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "studio/scene/gltf/unit_vector.h"
 #include "studio/scene/lights/light_units.h"
 
 namespace penumbra::studio::gltf {
@@ -56,9 +58,10 @@ Light loadPunctual(const JsonView& json, const JsonView& node) {
         loadPoint(json, extrasNumber(node, json, "radius", maxNumber), light);
         const JsonView spot = json.at("spot");
         const float inner = spot.numberWithin("innerConeAngle", 0, 0, pi / 2);
+        // Writers round pi / 2 up.
         const float outer = spot.numberWithin("outerConeAngle", pi / 4, 0, pi / 2 * 1.0001f);
         if (inner >= outer) spot.fail("innerConeAngle must be smaller than outerConeAngle");
-        light.cone_rad = {inner, outer};
+        light.cone_rad = {inner, std::min(outer, pi / 2)};
     } else if (type == "directional") {
         light.shape.shape = LightShape::distant;
         light.shape.angle_rad = glm::radians(extrasNumber(node, json, "angle", 180));
@@ -128,11 +131,6 @@ Camera loadCamera(const JsonView& json) {
         json.at("type").fail(fmt::format("'{}' is not perspective or orthographic", type));
     }
     return camera;
-}
-
-glm::vec3 unitOr(const glm::vec3& v, const glm::vec3& otherwise) {
-    const double length = glm::length(glm::dvec3(v));
-    return length > 0 ? glm::vec3(glm::dvec3(v) / length) : otherwise;
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <limits>
 #include <numeric>
 
+#include "studio/scene/gltf/unit_vector.h"
+
 namespace penumbra::studio::gltf {
 
 namespace {
@@ -15,12 +17,6 @@ namespace {
 using enum ComponentType;
 
 enum class Mode { points, lines, lineLoop, lineStrip, triangles, triangleStrip, triangleFan };
-
-glm::vec3 unitOr(const glm::vec3& v, const glm::vec3& otherwise) {
-    // Scaled first, so that neither tiny nor huge vectors under- or overflow when squared.
-    const float largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    return largest > 0 ? glm::normalize(v / largest) : otherwise;
-}
 
 /// The triangle list that a primitive's vertices form, in the order of the specification.
 std::vector<std::uint32_t> triangulate(std::vector<std::uint32_t> v, Mode mode) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "studio/errors.h"
+#include "studio/scene/gltf/unit_vector.h"
 
 namespace penumbra::studio::gltf {
 
@@ -31,9 +32,7 @@ glm::mat4 composed(const glm::vec3& translation, const glm::quat& rotation, cons
 glm::vec3 turnedNormal(const glm::mat3& m, const glm::vec3& normal) {
     const glm::mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     const float side = glm::dot(m[0], cofactors[0]) < 0 ? -1.0f : 1.0f;
-    const glm::vec3 turned = side * (cofactors * normal);
-    const float length = glm::length(turned);
-    return length > 0 && std::isfinite(length) ? turned / length : normal;
+    return unitOr(side * (cofactors * normal), normal);
 }
 
 // In the world. NaN passes comparisons unnoticed, so that the bounds alone would not show an overflow.
@@ -154,11 +153,8 @@ void GltfMotion::deform(const Mesh& mesh, const Placement& placement, const Pose
         if (placement.part.flatShaded) {
             instance.normals = flatNormals(instance.positions);
         } else {
-            for (std::size_t i = 0; i < instance.normals.size(); ++i) {
-                const float length = glm::length(instance.normals[i]);
-                const bool isUsable = length > 0 && std::isfinite(length);
-                instance.normals[i] = isUsable ? instance.normals[i] / length : mesh.normals[i];
-            }
+            for (std::size_t i = 0; i < instance.normals.size(); ++i)
+                instance.normals[i] = unitOr(instance.normals[i], mesh.normals[i]);
         }
     }
 

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Known answers: materials, lights and cameras.
+#include <cmath>
+
+#include "studio/errors.h"
+#include "studio/scene/gltf/test_fixture.h"
+#include "studio/scene/gltf/test_pictures.h"
+
+namespace penumbra::studio {
+namespace {
+
+using Json = nlohmann::json;
+using GltfLook = Gltf;
+
+TEST_F(GltfLook, ReadsMaterialsAndBakesTheTextureTransform) {
+    Json& primitive = gltf_.addTriangle();
+    folder_.write("red.png", encodedPng(2, 1, 8, PNG_COLOR_TYPE_GRAY, {1, 2}));
+    gltf_.json["images"] = {{{"uri", "r%65d.png"}}};
+    gltf_.json["samplers"] = {{{"magFilter", 9728}, {"wrapS", 33071}}};
+    gltf_.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    gltf_.json["materials"] = {{{"name", "leaf"},
+                                {"alphaMode", "MASK"},
+                                {"alphaCutoff", 0.25},
+                                {"doubleSided", true},
+                                {"extensions", {{"KHR_materials_unlit", Json::object()}}}}};
+    gltf_.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorFactor", {1, 0.5, 0.25, 0.75}}};
+    Json& info = gltf_.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+    // The extension's own example: the lower left quadrant, turned by 90 degrees.
+    info = {{"index", 0}, {"texCoord", 0}};
+    info["extensions"]["KHR_texture_transform"] = {
+        {"offset", {0, 1}}, {"rotation", pi / 2}, {"scale", {0.5, 0.5}}, {"texCoord", 1}};
+    primitive["material"] = 0;
+    primitive["attributes"]["TEXCOORD_0"] = gltf_.add<float>("VEC2", {9, 9, 9, 9, 9, 9});
+    primitive["attributes"]["TEXCOORD_1"] = gltf_.add<float>("VEC2", {0, 0, 1, 0, 0, 1});
+    const Scene scene = load();
+    const Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.name, "leaf");
+    EXPECT_EQ(material.alpha, Material::Alpha::mask);
+    EXPECT_FLOAT_EQ(material.alphaCutoff, 0.25f);
+    EXPECT_TRUE(material.doubleSided && material.unlit);
+    EXPECT_FLOAT_EQ(material.baseColor.a, 0.75f);
+    const Texture& texture = scene.textures.at(std::size_t(material.baseColorTexture));
+    EXPECT_EQ(texture.magFilter, 9728);
+    EXPECT_EQ(texture.wrapS, 33071);
+    EXPECT_EQ(scene.pictures.at(std::size_t(texture.picture)).width_px, 2);
+    const std::vector<glm::vec2>& uvs = scene.meshes.at(0).uvs;
+    expectNear(glm::vec3(uvs.at(0), 0), {0, 1, 0});
+    expectNear(glm::vec3(uvs.at(1), 0), {0, 0.5, 0});
+    expectNear(glm::vec3(uvs.at(2), 0), {0.5, 1, 0});
+    gltf_.json["materials"][0]["alphaMode"] = "BLEND";
+    EXPECT_EQ(load().materials.at(0).alpha, Material::Alpha::opaque);
+    EXPECT_EQ(load().warnings.size(), 1u);
+}
+
+TEST_F(GltfLook, GivesPunctualLightsTheirSize) {
+    gltf_.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"intensity", 40}, {"color", {1, 0.5, 0}}},
+        {{"type", "spot"},
+         {"intensity", pi},
+         {"spot", {{"innerConeAngle", 0.3}, {"outerConeAngle", 0.6}}},
+         {"extras", {{"penumbra", {{"radius", 9}}}}}},
+        {{"name", "sun"},
+         {"type", "directional"},
+         {"intensity", 3},
+         {"extras", {{"penumbra", {{"angle", 60}}}}}}};
+    gltf_.json["nodes"] = Json::array();
+    for (int i = 0; i < 3; ++i)
+        gltf_.json["nodes"].push_back(
+            {{"name", "lamp"}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+    gltf_.json["nodes"][1]["extras"]["penumbra"]["radius"] = 0.5;  // the node wins
+    gltf_.json["nodes"][1]["translation"] = {1, 2, 3};
+    gltf_.json["nodes"][1]["scale"] = {2, 2, 2};
+    gltf_.json["scenes"][0]["nodes"] = {0, 1, 2};
+    const Scene scene = load();
+    const std::vector<Light> lights = scene.at(0).lights;
+    ASSERT_EQ(lights.size(), 3u);
+
+    EXPECT_EQ(lights[0].name, "lamp");
+    EXPECT_EQ(lights[0].shape.shape, LightShape::sphere);
+    EXPECT_EQ(lights[0].emission.unit, Emission::Unit::candela);
+    expectNear(lights[0].emission.value, {40, 20, 0});
+
+    EXPECT_EQ(lights[1].shape.shape, LightShape::disk);
+    EXPECT_FLOAT_EQ(lights[1].shape.radius_m, 0.5f);
+    EXPECT_EQ(lights[1].emission.unit, Emission::Unit::nits);
+    EXPECT_FLOAT_EQ(lights[1].emission.value.x, 4);  // pi / (pi 0.5^2)
+    EXPECT_FLOAT_EQ(lights[1].cone_rad.value()[1], 0.6f);
+    EXPECT_FLOAT_EQ(lights[1].shape.worldFromLight.columns[0][0], 1);  // orthonormal in spite of the scale
+    EXPECT_FLOAT_EQ(lights[1].shape.worldFromLight.columns[3][2], 3);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_NE(scene.warnings[0].find("/nodes/1"), std::string::npos);
+
+    EXPECT_EQ(lights[2].name, "sun");
+    EXPECT_EQ(lights[2].shape.shape, LightShape::distant);
+    EXPECT_FLOAT_EQ(lights[2].shape.angle_rad, pi / 3);
+    EXPECT_FLOAT_EQ(lights[2].emission.value.x, 3 / (pi * 0.25f));
+}
+
+TEST_F(GltfLook, PrefersAreaLights) {
+    gltf_.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    gltf_.json["extensions"]["EXT_lights_area"]["lights"] = {{{"type", "rect"},
+                                                              {"size", 2},
+                                                              {"rect", {{"aspect", 1.5}}},
+                                                              {"intensity", 800},
+                                                              {"color", {1, 1, 0}}},
+                                                             {{"type", "disk"}, {"size", 3}}};
+    gltf_.json["nodes"] = {{{"extensions", {{"EXT_lights_area", {{"light", 0}}}}}},
+                           {{"extensions", {{"EXT_lights_area", {{"light", 1}}}}}},
+                           {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}};
+    gltf_.json["scenes"][0]["nodes"] = {0, 1, 2};
+    const Scene scene = load();
+    const std::vector<Light> lights = scene.at(0).lights;
+    ASSERT_EQ(lights.size(), 2u);
+    EXPECT_EQ(lights[0].shape.shape, LightShape::rect);
+    EXPECT_FLOAT_EQ(lights[0].shape.width_m, 3);
+    EXPECT_FLOAT_EQ(lights[0].shape.height_m, 2);
+    expectNear(lights[0].emission.value, {800, 800, 0});
+    EXPECT_EQ(lights[1].shape.shape, LightShape::disk);
+    EXPECT_FLOAT_EQ(lights[1].shape.radius_m, 1.5f);
+    EXPECT_EQ(scene.warnings.size(), 1u);
+}
+
+TEST_F(GltfLook, ReadsCameras) {
+    gltf_.json["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}},
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 2}, {"znear", 0}, {"zfar", 9}}}}};
+    gltf_.json["nodes"] = {{{"camera", 0}, {"scale", {3, 3, 3}}, {"translation", {0, 5, 0}}, {"name", "eye"}},
+                           {{"camera", 1}}};
+    gltf_.json["scenes"][0]["nodes"] = {0, 1};
+    const std::vector<Camera> cameras = load().at(0).cameras;
+    ASSERT_EQ(cameras.size(), 2u);
+    EXPECT_EQ(cameras[0].name, "eye");
+    EXPECT_FLOAT_EQ(cameras[0].yfov_rad, 0.7f);
+    EXPECT_FALSE(cameras[0].orthographicHeight_m);
+    EXPECT_NEAR(glm::determinant(cameras[0].worldFromCamera), 1, 1e-6);
+    EXPECT_FLOAT_EQ(cameras[0].worldFromCamera[3].y, 5);
+    EXPECT_FLOAT_EQ(cameras[1].orthographicHeight_m.value(), 4);
+}
+
+}  // namespace
+}  // namespace penumbra::studio
