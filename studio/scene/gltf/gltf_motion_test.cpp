@@ -12,9 +12,10 @@ using Json = nlohmann::json;
 
 class GltfMotionTest : public Gltf {
   protected:
-    // Animates node 0 along `path` at times 0, 1, 2 s.
-    void animate(const std::string& path, int output, const std::string& interpolation) {
-        const int input = gltf_.add<float>("SCALAR", {0, 1, 2});
+    // Animates `path` of node 0.
+    void animate(const std::string& path, int output, const std::string& interpolation,
+                 const std::vector<float>& times_s = {0, 1, 2}) {
+        const int input = gltf_.add("SCALAR", times_s);
         gltf_.json["animations"] = {
             {{"name", "clip"},
              {"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}},
@@ -34,13 +35,15 @@ TEST_F(GltfMotionTest, InterpolatesStepLinearAndCubic) {
     EXPECT_FLOAT_EQ(x(1.5), 5);
     EXPECT_FLOAT_EQ(x(2.25), 1);  // looped
     EXPECT_FLOAT_EQ(x(-0.5), 5);  // backwards
-    // in-tangent, value, out-tangent; on [0, 1]: values 0, 4, out-tangent 8, in-tangent 0. At t = 0.5 the
-    // Hermite weights are 0.5, 0.125, 0.5, -0.125: 2 + 1.
-    animate("translation", gltf_.add<float>("VEC3", {0, 0, 0, 0, 0,      0, 8, 0, 0, /**/ 0, 0, 0, 4, 0,
-                                                     0, 0, 0, 0, /**/ 0, 0, 0, 6, 0, 0,      0, 0, 0}),
-            "CUBICSPLINE");
-    EXPECT_FLOAT_EQ(x(0.5), 3);
-    EXPECT_FLOAT_EQ(x(1), 4);
+    // Keys are in-tangent, value, out-tangent. Half-way through two seconds the Hermite weights are 0.5,
+    // 0.125 x 2, 0.5, -0.125 x 2: 0.5 x 0 + 0.25 x 8 + 0.5 x 4 - 0.25 x -12.
+    const std::vector<float> zero{0, 0, 0}, out{8, 0, 0}, four{4, 0, 0}, in{-12, 0, 0};
+    std::vector<float> splineKeys;
+    for (const std::vector<float>& part : {zero, zero, out, in, four, zero})
+        splineKeys.insert(splineKeys.end(), part.begin(), part.end());
+    animate("translation", gltf_.add("VEC3", splineKeys), "CUBICSPLINE", {0, 2});
+    EXPECT_FLOAT_EQ(x(1), 7);
+    EXPECT_FLOAT_EQ(x(0), 0);
     EXPECT_DOUBLE_EQ(load().animations.at(0).duration_s, 2);
     EXPECT_EQ(load().animations[0].name, "clip");
 }
