@@ -97,6 +97,9 @@ class Technique {
 struct TechniqueInfo {
     std::string_view name;     ///< as on the command line: "hard"
     std::string_view summary;  ///< one line
+    /// The root mean square error of visibility that it promises at most in the penumbra of a straight edge, where the
+    /// truth is known in closed form. 0.29 is what a hard edge makes of a linear ramp.
+    float rampRmse;
 };
 
 /// All techniques of the catalog, in the order in which they are listed.

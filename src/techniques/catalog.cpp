@@ -21,7 +21,7 @@ std::unique_ptr<Technique> make(Device& device) {
 }
 
 constexpr std::array entries = {
-    Entry{{"hard", "one shadow map from the light's centre: no penumbra (Williams 1978)"}, make<HardShadowMap>},
+    Entry{{"hard", "one shadow map from the light's centre: no penumbra (Williams 1978)", 0.30f}, make<HardShadowMap>},
 };
 
 constexpr auto infos = [] {

@@ -5,10 +5,7 @@
 layout(local_size_x = 256) in;
 
 layout(binding = 0) uniform sampler2D unshadowedTexture;
-layout(std430, binding = 0) writeonly buffer Exposure {
-    float exposure;
-    float mean_nits;
-};
+layout(std430, binding = 0) writeonly buffer Exposure { float exposure; };
 
 shared vec2 sums[256];
 
@@ -22,12 +19,12 @@ void main() {
         if (luminance > 0.0) sum += vec2(luminance, 1.0);
     }
     sums[self] = sum;
-    for (int half_ = 128; half_ > 0; half_ /= 2) {
+    for (int width = 128; width > 0; width /= 2) {
         barrier();
-        if (self < half_) sums[self] += sums[self + half_];
+        if (self < width) sums[self] += sums[self + width];
     }
     if (self == 0) {
-        mean_nits = sums[0].y > 0.0 ? sums[0].x / sums[0].y : 0.0;
-        exposure = mean_nits > 0.0 ? 0.4 / mean_nits : 1.0;
+        float mean = sums[0].y > 0.0 ? sums[0].x / sums[0].y : 0.0;
+        exposure = mean > 0.0 ? 0.4 / mean : 1.0;
     }
 }

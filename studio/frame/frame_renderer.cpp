@@ -34,7 +34,7 @@ FrameRenderer::FrameRenderer(Device& device, std::filesystem::path shaderSourceD
       exposure_(shaders_, {"studio/frame/exposure.comp.glsl"}),
       toneMap_(shaders_, {"studio/frame/tone_map.comp.glsl"}),
       lightingConstants_("lighting"),
-      exposureResult_(2 * sizeof(float), "exposure") {}
+      exposureResult_(sizeof(float), "exposure") {}
 
 void FrameRenderer::resize(int width_px, int height_px) {
     if (display_.width_px() == width_px && display_.height_px() == height_px && display_.name() != 0) return;
@@ -58,8 +58,9 @@ void FrameRenderer::draw(const GpuScene& scene, const SceneMoment& moment, const
 }
 
 ShadowInputs FrameRenderer::shadowInputs(const Light& light) const {
-    ShadowInputs inputs{.view = gbuffer_.view(), .light = light.shape, .casters = scene_->casters()};
-    inputs.light.radianceTexture = scene_->texture(light.texture);
+    ShadowInputs inputs{.view = gbuffer_.view(), .light = light.shape};
+    if (light.castsShadow) inputs.casters = scene_->casters();
+    inputs.light.radianceTexture = scene_->radianceTexture(light.texture);
     return inputs;
 }
 
@@ -92,7 +93,7 @@ void FrameRenderer::addLight(const Light& light, const VisibilityBuffer& visibil
     gbuffer_.shadingNormals().bind(1);
     gbuffer_.albedo().bind(2);
     glBindTextureUnit(3, visibility.texture());
-    glBindTextureUnit(4, scene_->texture(light.texture));
+    glBindTextureUnit(4, scene_->radianceTexture(light.texture));
     radiance_.bindImage(0, GL_READ_WRITE);
     unshadowed_.bindImage(1, GL_READ_WRITE);
     reach_.bindImage(2, GL_WRITE_ONLY);

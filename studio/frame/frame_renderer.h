@@ -30,6 +30,7 @@ class FrameRenderer {
     /// alive until the next call. Sizes from 1 to Device::maxTextureSize_px().
     void draw(const GpuScene& scene, const SceneMoment& moment, const Camera& camera, int width_px, int height_px);
 
+    /// What a technique needs to know; without casters for a light that casts no shadow.
     ShadowInputs shadowInputs(const Light& light) const;
     VisibilityBuffer makeVisibility(const Light& light) const;
 

@@ -10,22 +10,39 @@ namespace penumbra::studio {
 namespace {
 
 /// Colour is decoded from sRGB by the sampler, so that filtering happens in linear light.
-gl::Texture uploadTexture(const Texture& texture, const Picture& picture) {
+gl::Texture uploadPicture(const Picture& picture, std::span<const std::uint8_t> rgba) {
     const int largest = std::max(picture.width_px, picture.height_px);
     gl::Texture result({.width_px = picture.width_px,
                         .height_px = picture.height_px,
                         .levels = int(std::bit_width(unsigned(largest))),
                         .format = GL_SRGB8_ALPHA8,
                         .label = picture.name});
-    const GLuint name = result.name();
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(name, 0, 0, 0, picture.width_px, picture.height_px, GL_RGBA, GL_UNSIGNED_BYTE,
-                        picture.rgba.data());
-    glGenerateTextureMipmap(name);
+    glTextureSubImage2D(result.name(), 0, 0, 0, picture.width_px, picture.height_px, GL_RGBA, GL_UNSIGNED_BYTE,
+                        rgba.data());
+    glGenerateTextureMipmap(result.name());
+    return result;
+}
+
+gl::Texture uploadTexture(const Texture& texture, const Picture& picture) {
+    gl::Texture result = uploadPicture(picture, picture.rgba);
+    const GLuint name = result.name();
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, texture.minFilter);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, texture.magFilter);
     glTextureParameteri(name, GL_TEXTURE_WRAP_S, texture.wrapS);
     glTextureParameteri(name, GL_TEXTURE_WRAP_T, texture.wrapT);
+    return result;
+}
+
+gl::Texture uploadRadianceTexture(const Picture& picture) {
+    std::vector<std::uint8_t> bottomUp;
+    const std::size_t row = std::size_t(picture.width_px) * 4;
+    for (std::size_t y = std::size_t(picture.height_px); y-- > 0;) {
+        bottomUp.insert(bottomUp.end(), &picture.rgba[y * row], &picture.rgba[y * row] + row);
+    }
+    gl::Texture result = uploadPicture(picture, bottomUp);
+    glTextureParameteri(result.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(result.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     return result;
 }
 
@@ -53,6 +70,13 @@ void GpuScene::update(const SceneMoment& moment) {
         if (isDeformed(instance) && ++made > deforming_.size()) {
             deforming_.push_back(upload(scene_.meshes[std::size_t(instance.mesh)]));
         }
+    }
+
+    for (const Light& light : moment.lights) {
+        if (light.texture < 0 || radianceTextures_.contains(light.texture)) continue;
+        const Texture& texture = scene_.textures[std::size_t(light.texture)];
+        radianceTextures_.emplace(light.texture,
+                                  uploadRadianceTexture(scene_.pictures[std::size_t(texture.picture)]));
     }
 
     drawables_.clear();

@@ -6,10 +6,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D radianceTexture;
 layout(binding = 1) uniform sampler2D albedoTexture;
 layout(binding = 2) uniform sampler2D depthTexture;
-layout(std430, binding = 0) readonly buffer Exposure {
-    float exposure;
-    float mean_nits;
-};
+layout(std430, binding = 0) readonly buffer Exposure { float exposure; };
 layout(binding = 0, rgba8) uniform writeonly image2D displayImage;
 
 const vec3 background = vec3(0.045, 0.05, 0.06);  // display-linear

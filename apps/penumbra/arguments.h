@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What several subcommands take.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studio/image/image.h"
+#include "studio/scene/open_scene.h"
+#include "studio/workbench/workbench.h"
+
+namespace penumbra::studio {
+
+/// SCENE and how to look at it.
+struct SceneArguments {
+    std::string scene;
+    std::optional<std::string> lightsFile;
+    std::optional<std::string> camera;
+    std::optional<int> sceneIndex;
+    int animation = 0;
+    double time_s = 0;
+    std::string size = "960x540";
+    std::optional<int> device;
+
+    /// Adds SCENE and the flags to a subcommand.
+    void addTo(CLI::App& command);
+    /// SCENE, --lights, --scene and --animation alone.
+    void addSceneTo(CLI::App& command);
+
+    /// Opens the scene and logs its warnings. Throws InputError.
+    Scene open() const;
+    /// Throws UsageError unless --size is WIDTHxHEIGHT.
+    PictureSize pictureSize() const;
+};
+
+/// "NAME,NAME" or "all" as names, each of which exists. `all` means the library's catalog, without the reference.
+std::vector<std::string> techniqueNames(const std::string& list);
+
+/// Applies every "KEY=VALUE" to `technique`. Throws UsageError.
+void applySettings(Technique& technique, const std::vector<std::string>& settings);
+
+/// What every picture carries.
+Metadata pictureMetadata(const std::string& commandLine);
+
+/// Throws OutputError unless files can be made in `folder`; creates it first if `create`.
+void requireWritableFolder(const std::filesystem::path& folder, bool create = false);
+
+}  // namespace penumbra::studio

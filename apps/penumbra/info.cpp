@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "apps/penumbra/arguments.h"
+#include "apps/penumbra/commands.h"
+#include "studio/scene/topology.h"
+
+namespace penumbra::studio {
+namespace {
+
+constexpr double degrees = 180 / 3.14159265358979;
+
+std::string describeShape(const AreaLight& shape) {
+    switch (shape.shape) {
+        case LightShape::rect:
+            return fmt::format("RectLight {:g} x {:g} m{}", shape.width_m, shape.height_m,
+                               shape.twoSided ? ", two-sided" : "");
+        case LightShape::disk:
+            return fmt::format("DiskLight of radius {:g} m{}", shape.radius_m, shape.twoSided ? ", two-sided" : "");
+        case LightShape::sphere: return fmt::format("SphereLight of radius {:g} m", shape.radius_m);
+        case LightShape::distant: return fmt::format("DistantLight of {:g} degrees", shape.angle_rad * degrees);
+    }
+    return {};
+}
+
+std::string describeEmission(const Emission& emission) {
+    const char* const unit = emission.unit == Emission::Unit::nits      ? "nits"
+                             : emission.unit == Emission::Unit::candela ? "cd"
+                                                                        : "lux";
+    return fmt::format("({:g}, {:g}, {:g}) {}", emission.value.r, emission.value.g, emission.value.b, unit);
+}
+
+std::string describePlace(const AreaLight& shape) {
+    const auto& columns = shape.worldFromLight.columns;
+    const std::string direction = fmt::format("towards ({:.3g}, {:.3g}, {:.3g})", -columns[2][0], -columns[2][1],
+                                              -columns[2][2]);
+    if (shape.shape == LightShape::distant) return direction;
+    const std::string place = fmt::format("at ({:.3g}, {:.3g}, {:.3g})", columns[3][0], columns[3][1], columns[3][2]);
+    return shape.shape == LightShape::sphere ? place : place + " " + direction;
+}
+
+/// Sums over meshes, each welded by itself.
+Topology sum(const std::vector<Mesh>& meshes) {
+    Topology total;
+    for (const Mesh& mesh : meshes) {
+        const Topology t = analyzeTopology(mesh.positions, mesh.indices);
+        total.triangles += t.triangles;
+        total.vertices += t.vertices;
+        total.boundaryEdges += t.boundaryEdges;
+        total.nonManifoldEdges += t.nonManifoldEdges;
+        total.flippedEdges += t.flippedEdges;
+        total.degenerateTriangles += t.degenerateTriangles;
+    }
+    return total;
+}
+
+void printInfo(const SceneArguments& arguments) {
+    const Scene scene = arguments.open();
+    const SceneMoment moment = scene.at(0);
+    std::size_t drawnTriangles = 0;
+    for (const Instance& instance : moment.instances) {
+        drawnTriangles += scene.meshes[std::size_t(instance.mesh)].indices.size() / 3;
+    }
+    const Topology topology = sum(scene.meshes);
+    fmt::print("scene       {}\n", scene.name.empty() ? arguments.scene : scene.name);
+    fmt::print("triangles   {} drawn by {} instances; {} stored in {} meshes\n", drawnTriangles,
+               moment.instances.size(), topology.triangles, scene.meshes.size());
+    fmt::print("vertices    {}\n", topology.vertices);
+    if (moment.bounds.empty()) {
+        fmt::print("bounds      none\n");
+    } else {
+        const glm::vec3 &low = moment.bounds.min, &high = moment.bounds.max;
+        fmt::print("bounds      ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m\n", low.x, low.y, low.z, high.x, high.y,
+                   high.z);
+    }
+    fmt::print("surfaces    {}: {} boundary edges, {} non-manifold edges, {} with disagreeing sides, {} degenerate "
+               "triangles\n",
+               topology.closed() ? "closed" : "open", topology.boundaryEdges, topology.nonManifoldEdges,
+               topology.flippedEdges, topology.degenerateTriangles);
+    fmt::print("materials   {} ({} textures)\n", scene.materials.size(), scene.textures.size());
+    for (const Light& light : moment.lights) {
+        fmt::print("light       {}: {} {}, {}{}\n", light.name, describeShape(light.shape),
+                   describePlace(light.shape), describeEmission(light.emission),
+                   light.castsShadow ? "" : ", casts no shadow");
+    }
+    for (const Camera& camera : moment.cameras) fmt::print("camera      {}\n", camera.name);
+    for (const Animation& animation : scene.animations) {
+        fmt::print("animation   {}: {:g} s\n", animation.name, animation.duration_s);
+    }
+    for (const std::string& warning : scene.warnings) fmt::print("warning     {}\n", warning);
+}
+
+}  // namespace
+
+void addInfo(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("info", "what a scene holds: triangles, bounds, lights, animations, warnings");
+    auto arguments = std::make_shared<SceneArguments>();
+    arguments->addSceneTo(*command);
+    command->callback([arguments] { printInfo(*arguments); });
+}
+
+}  // namespace penumbra::studio

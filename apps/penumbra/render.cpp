@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <charconv>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "apps/penumbra/arguments.h"
+#include "apps/penumbra/commands.h"
+#include "studio/errors.h"
+#include "studio/image/image_io.h"
+#include "studio/workbench/progress.h"
+#include "studio/workbench/reference_technique.h"
+
+namespace penumbra::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// --frames A-B[xSTEP]
+struct FrameRange {
+    int first = 0, last = 0, step = 1;
+};
+
+FrameRange parseFrames(const std::string& text) {
+    FrameRange range;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    const auto number = [&](int& value) {
+        const auto [next, error] = std::from_chars(at, end, value);
+        at = next;
+        return error == std::errc() && value >= 0;
+    };
+    const auto skip = [&](char c) { return at != end && *at == c && ++at; };
+    bool good = number(range.first) && skip('-') && number(range.last);
+    if (good && at != end) good = skip('x') && number(range.step);
+    if (!good || at != end || range.step < 1 || range.last < range.first) {
+        throw UsageError(fmt::format("--frames '{}' is not FIRST-LAST or FIRST-LASTxSTEP, for instance 1-100x2", text));
+    }
+    return range;
+}
+
+/// "out.####.png" -> "out.0007.png"; without '#' the number goes before the extension.
+fs::path numbered(const fs::path& path, int frame) {
+    std::string name = path.filename().string();
+    std::size_t begin = name.find('#');
+    std::size_t count = 0;
+    if (begin == std::string::npos) {
+        begin = name.size() - path.extension().string().size();
+        name.insert(begin, ".####");
+        ++begin;
+    }
+    while (begin + count < name.size() && name[begin + count] == '#') ++count;
+    return path.parent_path() / name.replace(begin, count, fmt::format("{:0{}}", frame, count));
+}
+
+struct RenderArguments {
+    SceneArguments scene;
+    std::string technique{defaultTechnique()};
+    std::string output;
+    std::string visibility;
+    std::vector<std::string> settings;
+    std::string frames;
+    double framesPerSecond = 24;
+    bool skipExisting = false;
+    bool json = false;
+};
+
+enum class PictureFormat { png, exr };
+
+PictureFormat formatOf(const fs::path& path) {
+    const std::string extension = path.extension().string();
+    if (extension == ".png") return PictureFormat::png;
+    if (extension == ".exr") return PictureFormat::exr;
+    throw UsageError(fmt::format("-o '{}': pictures are .png or .exr", path.string()));
+}
+
+void writePicture(const fs::path& path, const TechniqueResult& result, const Metadata& metadata) {
+    if (formatOf(path) == PictureFormat::png) {
+        writePng(path, result.display, metadata);
+    } else {
+        const Image& radiance = result.radiance;
+        writeExr(path, {radiance.width_px, radiance.height_px, channelsOf(radiance, ""), metadata});
+    }
+}
+
+/// Channel V for one light, LIGHT.V for several; V.R, V.G, V.B for a textured one.
+void writeVisibility(const fs::path& path, const TechniqueResult& result, const Metadata& metadata) {
+    ExrPicture picture{result.display.width_px, result.display.height_px, {}, metadata};
+    for (const LightResult& light : result.lights) {
+        const std::string name = result.lights.size() == 1 ? "V" : light.light + ".V";
+        for (ExrChannel& channel : channelsOf(light.visibility, name)) picture.channels.push_back(std::move(channel));
+    }
+    if (picture.channels.empty()) {
+        picture.channels.push_back({"V", std::vector<float>(result.display.pixelCount(), 1.0f)});
+    }
+    writeExr(path, picture);
+}
+
+nlohmann::ordered_json statisticsJson(const Statistics& statistics) {
+    nlohmann::ordered_json json = {{"counts", nlohmann::json::object()}, {"passes_ms", nlohmann::json::object()}};
+    for (const Statistic& count : statistics.counts) json["counts"][std::string(count.name)] = count.value;
+    for (const PassTime& pass : statistics.passes) json["passes_ms"][std::string(pass.name)] = pass.milliseconds;
+    return json;
+}
+
+class RenderCommand {
+  public:
+    RenderCommand(const RenderArguments& arguments, const std::string& commandLine)
+        : arguments_(arguments), metadata_(pictureMetadata(commandLine)) {}
+
+    void run() {
+        const PictureSize size = arguments_.scene.pictureSize();
+        checkOutputs();
+        const Scene scene = arguments_.scene.open();
+        Workbench workbench(arguments_.scene.device);
+        workbench.requireSize(size);
+        const std::unique_ptr<Technique> technique = workbench.makeTechnique(arguments_.technique);
+        applySettings(*technique, arguments_.settings);
+        workbench.open(scene);
+
+        Progress progress(arguments_.technique);
+        const FrameRange range = arguments_.frames.empty() ? FrameRange{} : parseFrames(arguments_.frames);
+        for (int frame = range.first; frame <= range.last; frame += range.step) {
+            const auto outputs = outputsOf(frame);
+            if (arguments_.skipExisting && allExist(outputs)) continue;
+            const double done = double(frame - range.first) / (range.last - range.first + range.step);
+            if (auto* reference = dynamic_cast<ReferenceTechnique*>(technique.get())) {
+                const double share = double(range.step) / (range.last - range.first + range.step);
+                reference->setProgress([&, done, share](double fraction) { progress.update(done + share * fraction); });
+            }
+            progress.update(done);
+            renderFrame(workbench, *technique, scene, frame, size, outputs);
+        }
+        if (arguments_.json) std::cout << report_.dump(2) << "\n";
+    }
+
+  private:
+    struct Outputs {
+        fs::path picture, visibility;
+    };
+
+    void checkOutputs() const {
+        for (const std::string& file : {arguments_.output, arguments_.visibility}) {
+            if (!file.empty()) requireWritableFolder(fs::path(file).parent_path());
+        }
+        if (!arguments_.output.empty()) formatOf(arguments_.output);
+        if (!arguments_.visibility.empty() && formatOf(arguments_.visibility) != PictureFormat::exr) {
+            throw UsageError(fmt::format("--visibility '{}': visibility is written as .exr", arguments_.visibility));
+        }
+        if (arguments_.output.empty() && arguments_.visibility.empty() && !arguments_.json) {
+            throw UsageError("nothing to do: ask for a picture (-o), the visibility (--visibility) or --json");
+        }
+        if (!(arguments_.framesPerSecond > 0)) throw UsageError("--fps must be positive");
+    }
+
+    Outputs outputsOf(int frame) const {
+        Outputs outputs{arguments_.output, arguments_.visibility};
+        if (arguments_.frames.empty()) return outputs;
+        if (!outputs.picture.empty()) outputs.picture = numbered(outputs.picture, frame);
+        if (!outputs.visibility.empty()) outputs.visibility = numbered(outputs.visibility, frame);
+        return outputs;
+    }
+
+    static bool allExist(const Outputs& outputs) {
+        return (outputs.picture.empty() || fs::exists(outputs.picture)) &&
+               (outputs.visibility.empty() || fs::exists(outputs.visibility));
+    }
+
+    void renderFrame(Workbench& workbench, Technique& technique, const Scene& scene, int frame, PictureSize size,
+                     const Outputs& outputs) {
+        const double time_s =
+            arguments_.frames.empty() ? arguments_.scene.time_s : frame / arguments_.framesPerSecond;
+        const SceneMoment moment = scene.at(time_s);
+        const TechniqueResult result = workbench.run(arguments_.technique, technique, moment,
+                                                     findCamera(moment, arguments_.scene.camera), size);
+        if (!outputs.picture.empty()) writePicture(outputs.picture, result, metadata_);
+        if (!outputs.visibility.empty()) writeVisibility(outputs.visibility, result, metadata_);
+
+        nlohmann::ordered_json json = {{"scene", arguments_.scene.scene},
+                                       {"technique", arguments_.technique},
+                                       {"size", {size.width_px, size.height_px}},
+                                       {"time_s", time_s},
+                                       {"lights", nlohmann::json::array()}};
+        for (const LightResult& light : result.lights) {
+            json["lights"].push_back({{"light", light.light}, {"statistics", statisticsJson(light.statistics)}});
+        }
+        if (arguments_.frames.empty()) {
+            report_ = std::move(json);
+        } else {
+            report_.push_back(std::move(json));
+        }
+    }
+
+    const RenderArguments& arguments_;
+    Metadata metadata_;
+    nlohmann::ordered_json report_;
+};
+
+}  // namespace
+
+void addRender(CLI::App& app, const std::string& commandLine) {
+    CLI::App* command = app.add_subcommand("render", "render a picture, its visibility, or an animation");
+    auto arguments = std::make_shared<RenderArguments>();
+    arguments->scene.addTo(*command);
+    command->add_option("-t,--technique", arguments->technique, "see 'penumbra list techniques'")
+        ->capture_default_str();
+    command->add_option("-o,--output", arguments->output, "the picture: .png (as shown) or .exr (linear, nits)");
+    command->add_option("--visibility", arguments->visibility, "the visibility buffer of each light, as .exr");
+    command->add_option("--set", arguments->settings, "KEY=VALUE: a parameter of the technique; may be repeated")
+        ->take_all();
+    command->add_option("--frames", arguments->frames, "A-B or A-BxSTEP: an animation, into numbered files (#### in -o)");
+    command->add_option("--fps", arguments->framesPerSecond, "frames for each second of the animation")
+        ->capture_default_str();
+    command->add_flag("--skip-existing", arguments->skipExisting, "leave out frames whose files are there");
+    command->add_flag("--json", arguments->json, "print statistics as JSON");
+    command->callback([arguments, commandLine] { RenderCommand(*arguments, commandLine).run(); });
+}
+
+}  // namespace penumbra::studio

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/report/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "studio/image/atomic_file.h"
+#include "studio/image/image_io.h"
+#include "studio/image/label.h"
+#include "studio/metrics/difference_image.h"
+#include "studio/report/report_files.h"
+
+namespace penumbra::studio {
+namespace {
+
+nlohmann::ordered_json spreadOf(const std::vector<double>& milliseconds) {
+    if (milliseconds.empty()) return nullptr;
+    const auto [low, high] = std::ranges::minmax(milliseconds);
+    return {{"median", medianOf(milliseconds)}, {"min", low}, {"max", high}};
+}
+
+}  // namespace
+
+std::string lightSuffix(const std::string& light, std::size_t lightCount) {
+    std::string suffix = lightCount > 1 ? "." + light : "";
+    std::ranges::replace_if(
+        suffix, [](unsigned char c) { return !std::isalnum(c) && c != '-' && c != '.'; }, '_');
+    return suffix;
+}
+
+std::string visibilityFile(const std::string& technique, const std::string& suffix) {
+    return technique + ".visibility" + suffix + ".png";
+}
+
+std::string differenceFile(const std::string& technique, const std::string& suffix) {
+    return technique + ".difference" + suffix + ".png";
+}
+
+double medianOf(std::vector<double> values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+nlohmann::ordered_json toJson(const Comparison& comparison) {
+    nlohmann::ordered_json json = {{"scene", comparison.scene},
+                                   {"size", {comparison.width_px, comparison.height_px}},
+                                   {"renderer", comparison.renderer},
+                                   {"reference",
+                                    {{"samples", comparison.reference.samples},
+                                     {"noise_rms", comparison.reference.noise_rms},
+                                     {"rays_per_second", comparison.reference.raysPerSecond}}},
+                                   {"results", nlohmann::json::array()}};
+    for (const TechniqueComparison& technique : comparison.techniques) {
+        for (const LightComparison& light : technique.lights) {
+            const VisibilityMetrics& m = light.metrics;
+            nlohmann::ordered_json counts = nlohmann::json::object();
+            for (const auto& [name, value] : light.counts) counts[name] = value;
+            json["results"].push_back({{"technique", technique.technique},
+                                       {"light", light.light},
+                                       {"rmse", m.rmse},
+                                       {"mae", m.mae},
+                                       {"penumbra_rmse", m.penumbra_rmse},
+                                       {"p99", m.p99},
+                                       {"max", m.max},
+                                       {"leak", m.leak},
+                                       {"false_shadow", m.false_shadow},
+                                       {"flip", technique.flip},
+                                       {"ms", spreadOf(light.milliseconds)},
+                                       {"counts", std::move(counts)}});
+        }
+    }
+    return json;
+}
+
+std::string toTable(const Comparison& comparison) {
+    std::string table = fmt::format("{:<14} {:<14} {:>9} {:>9} {:>9} {:>7} {:>7} {:>8} {:>8} {:>9}\n", "technique",
+                                    "light", "rmse", "penumbra", "p99", "max", "leak", "false", "flip", "ms");
+    for (const TechniqueComparison& technique : comparison.techniques) {
+        for (const LightComparison& light : technique.lights) {
+            const VisibilityMetrics& m = light.metrics;
+            table += fmt::format("{:<14} {:<14} {:>9.4f} {:>9.4f} {:>9.4f} {:>7.3f} {:>6.2f}% {:>7.2f}% {:>8.4f} {:>9.2f}\n",
+                                 technique.technique, light.light, m.rmse, m.penumbra_rmse, m.p99, m.max,
+                                 100 * m.leak, 100 * m.false_shadow, technique.flip,
+                                 medianOf(light.milliseconds));
+        }
+    }
+    table += fmt::format("reference: {} rays a pixel, noise {:.4f} rms{}\n", comparison.reference.samples,
+                         comparison.reference.noise_rms,
+                         comparison.reference.raysPerSecond > 0
+                             ? fmt::format(", {:.2f} million rays/s", 1e-6 * comparison.reference.raysPerSecond)
+                             : ", from the cache");
+    return table;
+}
+
+void writeComparison(const std::filesystem::path& folder, const Comparison& comparison, const Metadata& metadata) {
+    const std::string reference(referenceName);
+    std::vector<LabelledImage> sheet;
+    const auto write = [&](const std::string& file, const Image& image) { writePng(folder / file, image, metadata); };
+
+    write(reference + ".png", comparison.reference.display);
+    sheet.push_back({reference, comparison.reference.display});
+    for (const TechniqueComparison& technique : comparison.techniques) {
+        write(technique.technique + ".png", technique.display);
+        sheet.push_back({technique.technique, technique.display});
+        for (std::size_t i = 0; i < technique.lights.size(); ++i) {
+            const LightComparison& light = technique.lights[i];
+            const Image& truth = comparison.reference.visibilities[i];
+            const std::string suffix = lightSuffix(light.light, technique.lights.size());
+            const Image difference = differenceImage(truth, light.visibility);
+            write(visibilityFile(reference, suffix), truth);
+            write(visibilityFile(technique.technique, suffix), light.visibility);
+            write(differenceFile(technique.technique, suffix), difference);
+            sheet.push_back({technique.technique + " x5" + suffix, difference});
+        }
+    }
+    write("contact-sheet.png", contactSheet(sheet, std::min(3, int(sheet.size()))));
+    writeFileAtomically(folder / "report.html", toHtml(comparison));
+}
+
+}  // namespace penumbra::studio

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/workbench/workbench.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+
+#include "studio/errors.h"
+#include "studio/workbench/reference_technique.h"
+
+namespace penumbra::studio {
+namespace {
+
+constexpr TechniqueInfo referenceInfo{"reference", "ray tracing (Embree): the truth, up to its stated noise", 0.01f};
+
+void logFromDevice(LogLevel level, std::string_view message) {
+    switch (level) {
+        case LogLevel::debug: spdlog::debug("{}", message); break;
+        case LogLevel::info: spdlog::info("{}", message); break;
+        case LogLevel::warning: spdlog::warn("{}", message); break;
+        case LogLevel::error: spdlog::error("{}", message); break;
+    }
+}
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+std::vector<TechniqueInfo> allTechniques() {
+    const std::span<const TechniqueInfo> catalog = techniqueCatalog();
+    std::vector<TechniqueInfo> all(catalog.begin(), catalog.end());
+    all.push_back(referenceInfo);
+    return all;
+}
+
+std::string_view defaultTechnique() {
+    const bool hasAdaptive = std::ranges::find(techniqueCatalog(), "adaptive", &TechniqueInfo::name) !=
+                             techniqueCatalog().end();
+    return hasAdaptive ? "adaptive" : "hard";
+}
+
+Workbench::Workbench(std::optional<int> device)
+    : context_(device), device_(DeviceOptions{.log = logFromDevice}), frame_(device_) {
+    spdlog::info("OpenGL on {}", device_.renderer());
+}
+
+std::unique_ptr<Technique> Workbench::makeTechnique(std::string_view name) {
+    if (name == referenceInfo.name) return std::make_unique<ReferenceTechnique>();
+    if (std::ranges::find(techniqueCatalog(), name, &TechniqueInfo::name) == techniqueCatalog().end()) {
+        std::vector<std::string_view> names;
+        for (const TechniqueInfo& info : allTechniques()) names.push_back(info.name);
+        throw Error(Error::Kind::unknownName,
+                    fmt::format("there is no technique '{}'; there are: {}", name, fmt::join(names, ", ")));
+    }
+    return penumbra::makeTechnique(device_, name);
+}
+
+void Workbench::open(const Scene& scene) { scene_ = std::make_unique<GpuScene>(device_, scene); }
+
+TechniqueResult Workbench::run(std::string_view name, Technique& technique, const SceneMoment& moment,
+                               const Camera& camera, PictureSize size, int timedRuns) {
+    requireSize(size);
+    scene_->update(moment);
+    frame_.draw(*scene_, moment, camera, size.width_px, size.height_px);
+
+    TechniqueResult result{.technique = std::string(name)};
+    for (const Light& light : moment.lights) {
+        LightResult& lightResult = result.lights.emplace_back();
+        lightResult.light = light.name;
+        const ShadowInputs inputs = frame_.shadowInputs(light);
+        VisibilityBuffer visibility = frame_.makeVisibility(light);
+        technique.render(inputs, visibility);
+        for (int i = 0; i < timedRuns; ++i) {
+            glFinish();
+            const auto start = std::chrono::steady_clock::now();
+            technique.render(inputs, visibility);
+            glFinish();
+            lightResult.milliseconds.push_back(1e3 * secondsSince(start));
+        }
+        lightResult.visibility = frame_.readVisibility(visibility);
+        lightResult.statistics = technique.statistics();
+        frame_.addLight(light, visibility);
+        lightResult.reach = frame_.readReach();
+    }
+    result.display = frame_.readDisplay();
+    result.radiance = frame_.readRadiance();
+    return result;
+}
+
+void Workbench::requireSize(PictureSize size) const {
+    const int limit = device_.maxTextureSize_px();
+    if (size.width_px < 1 || size.height_px < 1 || size.width_px > limit || size.height_px > limit) {
+        throw UsageError(fmt::format("a picture of {}x{} pixels cannot be made; this device allows 1x1 to {}x{}",
+                                     size.width_px, size.height_px, limit, limit));
+    }
+}
+
+const Camera& findCamera(const SceneMoment& moment, const std::optional<std::string>& nameOrIndex) {
+    if (!nameOrIndex) return moment.cameras.front();
+    const auto byName = std::ranges::find(moment.cameras, *nameOrIndex, &Camera::name);
+    if (byName != moment.cameras.end()) return *byName;
+    std::size_t index = 0;
+    const char* const end = nameOrIndex->data() + nameOrIndex->size();
+    const auto parsed = std::from_chars(nameOrIndex->data(), end, index);
+    if (parsed.ec == std::errc() && parsed.ptr == end && index < moment.cameras.size()) return moment.cameras[index];
+    std::vector<std::string> names;
+    for (const Camera& camera : moment.cameras) names.push_back(fmt::format("{} ({})", names.size(), camera.name));
+    throw UsageError(
+        fmt::format("there is no camera '{}'; the scene has: {}", *nameOrIndex, fmt::join(names, ", ")));
+}
+
+}  // namespace penumbra::studio

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where scenes, techniques and pictures meet: what the command and the tests do with them.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "penumbra/penumbra.h"
+#include "studio/context/headless_context.h"
+#include "studio/frame/frame_renderer.h"
+#include "studio/image/image.h"
+#include "studio/scene/scene.h"
+
+namespace penumbra::studio {
+
+/// What a technique did for one light.
+struct LightResult {
+    std::string light;
+    Image visibility;  ///< 1 channel, or 3 for a textured light
+    Image reach;       ///< the light's unshadowed irradiance for unit emission; 0: the light does not reach the pixel
+    Statistics statistics;
+    std::vector<double> milliseconds;  ///< wall-clock time of each timed render, device included
+};
+
+struct TechniqueResult {
+    std::string technique;
+    std::vector<LightResult> lights;
+    Image display;   ///< sRGB-encoded RGB in [0, 1]
+    Image radiance;  ///< nits, RGB
+};
+
+struct PictureSize {
+    int width_px = 1280;
+    int height_px = 720;
+};
+
+/// All names that `makeAnyTechnique` knows: the library's catalog and "reference".
+std::vector<TechniqueInfo> allTechniques();
+
+/// The technique that is used where none is asked for: adaptive light sampling, or hard while that is missing.
+std::string_view defaultTechnique();
+
+/// A device without a window, and a frame on it.
+class Workbench {
+  public:
+    /// Throws NoOpenGLError.
+    explicit Workbench(std::optional<int> device = std::nullopt);
+
+    Device& device() { return device_; }
+    FrameRenderer& frame() { return frame_; }
+
+    /// A technique of the catalog, or the ray-traced reference. Throws Error::Kind::unknownName listing them all.
+    std::unique_ptr<Technique> makeTechnique(std::string_view name);
+
+    /// Takes the scene in; it must outlive its use. Replaces the one before.
+    void open(const Scene& scene);
+
+    /// Renders all lights of `moment`, each once, and then `timedRuns` more times with the clock running.
+    TechniqueResult run(std::string_view name, Technique& technique, const SceneMoment& moment, const Camera& camera,
+                        PictureSize size, int timedRuns = 0);
+
+    /// Throws UsageError if the device cannot make pictures of this size.
+    void requireSize(PictureSize size) const;
+
+  private:
+    HeadlessContext context_;
+    Device device_;
+    FrameRenderer frame_;
+    std::unique_ptr<GpuScene> scene_;
+};
+
+/// The camera called `nameOrIndex`, or the first one. Throws UsageError listing the names.
+const Camera& findCamera(const SceneMoment& moment, const std::optional<std::string>& nameOrIndex);
+
+}  // namespace penumbra::studio
