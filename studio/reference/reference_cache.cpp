@@ -170,6 +170,10 @@ void ReferenceCache::removeOldest() const {
     std::error_code error;  // files may vanish meanwhile: another process tidies up, too
     for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
         std::error_code gone;
+        if (entry->path().extension() == ".tmp") {  // left by a process that was killed while it wrote
+            const auto age = fs::file_time_type::clock::now() - entry->last_write_time(gone);
+            if (!gone && age > std::chrono::hours(1)) fs::remove(entry->path(), gone);
+        }
         if (entry->path().extension() != extension) continue;
         const File file{entry->last_write_time(gone), entry->path(), entry->file_size(gone)};
         if (gone) continue;

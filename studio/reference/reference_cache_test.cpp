@@ -121,6 +121,15 @@ TEST(ReferenceCache, ForgetsWhatWasNotUsedForLongest) {
     EXPECT_TRUE(cache.find(c));
 }
 
+TEST(ReferenceCache, SweepsUpWhatAKilledProcessLeft) {
+    const TestFolder folder;
+    for (const char* name : {"old.tmp", "new.tmp"}) writeFileAtomically(folder / name, "half");
+    fs::last_write_time(folder / "old.tmp", fs::file_time_type::clock::now() - std::chrono::hours(2));
+    ReferenceCache(folder.path()).store({1, 1}, {.visibility = Image(2, 2, 1)});
+    EXPECT_FALSE(fs::exists(folder / "old.tmp"));
+    EXPECT_TRUE(fs::exists(folder / "new.tmp"));
+}
+
 TEST(ReferenceCache, AFolderThatCannotBeUsedDisablesIt) {
     const TestFolder folder;
     writeFileAtomically(folder / "file", "in the way");

@@ -184,6 +184,15 @@ TEST(Reference, ABlockerInTheLightsPlaneHidesNothing) {
     expectAll(scene.trace(floorGrid(16, 0.3f), roundAt(LightShape::disk, {0, 0, 2}, 1), nullptr, {}), 1);
 }
 
+TEST(Reference, ABlockerInsideASphereLightHidesNothing) {
+    // Two walls through the sphere, one across the rays and one along them, both within it.
+    const Soup walls = Soup()
+                           .rect(-0.25f, 0.25f, -0.25f, 0.25f, 2)
+                           .quad({0, -0.2f, 1.8f}, {0, 0.2f, 1.8f}, {0, 0.2f, 2.2f}, {0, -0.2f, 2.2f});
+    const AreaLight light = roundAt(LightShape::sphere, {0, 0, 2}, 0.4f);
+    expectAll(walls.scene().trace(floorGrid(8, 0.3f), light, nullptr, {}), 1);
+}
+
 TEST(Reference, APlainSlopeFarFromTheOriginDoesNotShadowItself) {
     // Positions with the errors of a depth buffer, on a plane askew, under grazing light.
     const glm::vec3 normal = glm::normalize(glm::vec3(0.3f, -0.2f, 1));
