@@ -153,19 +153,40 @@ TEST(Builtin, PrimitivesHasAboutTenThousandTriangles) {
     EXPECT_LE(triangles, 11000u);
 }
 
-TEST(Builtin, HalfPlaneIsWhereItsSummarySays) {
-    const Scene scene = makeBuiltin("half-plane");
-    const SceneMoment moment = scene.at(0);
-    const Instance& blocker = moment.instances[1];
-    Bounds bounds;
-    for (const glm::vec3& position : scene.meshes[blocker.mesh].positions)
-        bounds.include(glm::vec3(blocker.worldFromMesh * glm::vec4(position, 1)));
-    EXPECT_EQ(bounds.max, glm::vec3(0, 2, 20));
-    EXPECT_EQ(bounds.min, glm::vec3(-20, 2, -20));
-    EXPECT_TRUE(blocker.casts);
-    EXPECT_FALSE(moment.instances[0].casts);
-    EXPECT_EQ(positionOf(moment.lights[0]), glm::vec3(0, 4, 0));
-    EXPECT_EQ(moment.lights[0].shape.worldFromLight.columns[2][1], 1) << "shines straight down";
+TEST(Builtin, ClosedFormScenesAreWhereTheirSummariesSay) {
+    struct Expected {
+        std::string_view name;
+        glm::vec3 min, max;  // of the blocker
+        LightShape shape;
+    };
+    for (const Expected& expected :
+         {Expected{"half-plane", {-20, 2, -20}, {0, 2, 20}, LightShape::rect},
+          Expected{"strip", {-0.2f, 2, -20}, {0.2f, 2, 20}, LightShape::rect},
+          Expected{"disk-over-ground", {-0.4f, 2, -0.4f}, {0.4f, 2, 0.4f}, LightShape::disk}}) {
+        SCOPED_TRACE(expected.name);
+        const Scene scene = makeBuiltin(expected.name);
+        const SceneMoment moment = scene.at(0);
+        ASSERT_EQ(moment.instances.size(), 2u);
+        EXPECT_FALSE(moment.instances[0].casts) << "the ground";
+        const Instance& blocker = moment.instances[1];
+        EXPECT_TRUE(blocker.casts);
+        Bounds bounds;
+        for (const glm::vec3& position : scene.meshes[blocker.mesh].positions)
+            bounds.include(glm::vec3(blocker.worldFromMesh * glm::vec4(position, 1)));
+        EXPECT_EQ(bounds.min, expected.min);
+        EXPECT_EQ(bounds.max, expected.max);
+
+        ASSERT_EQ(moment.lights.size(), 1u);
+        const AreaLight& light = moment.lights[0].shape;
+        EXPECT_EQ(light.shape, expected.shape);
+        EXPECT_EQ(positionOf(moment.lights[0]), glm::vec3(0, 4, 0));
+        EXPECT_EQ(light.worldFromLight.columns[2][1], 1) << "shines straight down";
+        EXPECT_EQ(light.width_m, expected.shape == LightShape::rect ? 1 : 0);
+        EXPECT_EQ(light.height_m, expected.shape == LightShape::rect ? 1 : 0);
+        EXPECT_EQ(light.radius_m, expected.shape == LightShape::disk ? 0.5f : 0);
+        for (const Camera& camera : moment.cameras)
+            EXPECT_LT(camera.worldFromCamera[3].y, 2) << "a camera above the blocker would see that instead";
+    }
 }
 
 TEST(Builtin, MovingMovesAndRepeats) {
