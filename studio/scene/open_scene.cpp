@@ -57,7 +57,7 @@ Bounds boundsOverTime(const Scene& scene, const SceneMoment& start, int animatio
     return bounds;
 }
 
-void addDefaults(Scene& scene, int animation) {
+void addDefaults(Scene& scene, const std::string& nameForMessages, int animation) {
     const SceneMoment start = scene.at(0);
     if (!start.lights.empty() && !start.cameras.empty()) return;
     const Bounds bounds = boundsOverTime(scene, start, animation);
@@ -66,12 +66,12 @@ void addDefaults(Scene& scene, int animation) {
     if (start.lights.empty()) {
         light = keyLight("default key", bounds);
         scene.warnings.push_back(fmt::format("{} has no light: added a key light, {:.3g} m square, over it",
-                                             scene.name, light->shape.width_m));
+                                             nameForMessages, light->shape.width_m));
     }
     if (start.cameras.empty()) {
         camera = framingCamera("default", bounds);
         scene.warnings.push_back(
-            fmt::format("{} has no camera: added one that frames everything", scene.name));
+            fmt::format("{} has no camera: added one that frames everything", nameForMessages));
     }
     scene.motion = std::make_shared<WithDefaults>(scene.motion, std::move(light), std::move(camera));
 }
@@ -128,7 +128,7 @@ Scene openScene(const std::string& nameOrPath, const OpenOptions& options) {
         if (fs::exists(sidecar, error)) lightsFile = sidecar;
     }
     if (lightsFile) applySidecar(scene, readSidecar(*lightsFile), lightsFile->parent_path());
-    addDefaults(scene, options.animation);
+    addDefaults(scene, nameOrPath, options.animation);
     return scene;
 }
 

@@ -91,7 +91,7 @@ TEST_F(OpenScene, AddsWhatIsMissingAndSaysSo) {
     ASSERT_EQ(moment.cameras.size(), 1u);
     EXPECT_EQ(moment.lights[0].name, "default key");
     ASSERT_EQ(scene.warnings.size(), 2u);
-    EXPECT_NE(scene.warnings[0].find("has no light: added a key light"), std::string::npos)
+    EXPECT_NE(scene.warnings[0].find("bare.gltf has no light: added a key light"), std::string::npos)
         << scene.warnings[0];
     EXPECT_NE(scene.warnings[1].find("has no camera"), std::string::npos) << scene.warnings[1];
 }
