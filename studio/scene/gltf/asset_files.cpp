@@ -11,6 +11,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <span>
 #include <string_view>
 
 namespace penumbra::studio::gltf {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "studio/errors.h"
 #include "studio/scene/gltf/unit_vector.h"
@@ -69,7 +70,8 @@ GltfMotion::GltfMotion(Parts parts, Budget& budget, Scene& scene) : parts_(std::
         }
     }
 
-    const Clip clip = std::exchange(parts_.clip, {});
+    // The rest pose is the one without the clip.
+    Clip clip = std::exchange(parts_.clip, {});
     const Pose rest = poseAt(0);
     for (Placement& placement : placements_) {
         const Mesh& mesh = scene.meshes[std::size_t(placement.part.mesh)];
@@ -87,7 +89,7 @@ GltfMotion::GltfMotion(Parts parts, Budget& budget, Scene& scene) : parts_(std::
                 break;
             }
     }
-    parts_.clip = clip;
+    parts_.clip = std::move(clip);
 }
 
 GltfMotion::Pose GltfMotion::poseAt(double time_s) const {
