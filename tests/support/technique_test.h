@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What tests of techniques share: a device without a window, scenes with a light of one's own, and the truth.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "studio/metrics/visibility_metrics.h"
+#include "studio/scene/scene.h"
+#include "studio/workbench/workbench.h"
+
+namespace penumbra::studio {
+
+/// KEY, VALUE
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// Fails a test after which the driver has reported an error, undefined behaviour or anything of high severity.
+class TechniqueTest : public ::testing::Test {
+  protected:
+    static constexpr PictureSize defaultSize{160, 120};
+
+    void TearDown() override;
+
+    /// One for the whole program: a device takes longer to make than most tests to run.
+    static Workbench& workbench();
+
+    /// The first light's result, from the first camera.
+    static LightResult render(std::string_view technique, const Scene& scene, PictureSize size = defaultSize,
+                              const Settings& settings = {}, double time_s = 0);
+    /// The same with a technique that the test holds, so that it keeps its state from call to call.
+    static LightResult render(Technique& technique, const Scene& scene, PictureSize size = defaultSize,
+                              double time_s = 0);
+    /// The ray-traced reference; not from the cache.
+    static LightResult truth(const Scene& scene, PictureSize size = defaultSize, int samples = 256);
+
+    /// Errors where the unshadowed light arrives.
+    static VisibilityMetrics judge(const LightResult& truth, const LightResult& result);
+    /// Share of the pixels that the light reaches where the two differ by more than `tolerance`.
+    static double shareOfDifferentPixels(const LightResult& a, const LightResult& b, float tolerance);
+};
+
+/// The scene with another light in place of all its own; `change` gets its first light to start from.
+Scene withLight(Scene scene, const std::function<void(Light&)>& change);
+
+/// The scene as `change` leaves each of its moments.
+Scene withMoment(Scene scene, const std::function<void(SceneMoment&)>& change);
+
+/// A light of size zero at the same place.
+void shrinkToPoint(Light& light);
+
+}  // namespace penumbra::studio
