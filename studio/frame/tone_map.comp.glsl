@@ -9,8 +9,8 @@ layout(binding = 2) uniform sampler2D depthTexture;
 layout(std430, binding = 0) readonly buffer Exposure { float exposure; };
 layout(binding = 0, rgba8) uniform writeonly image2D displayImage;
 
-const vec3 background = vec3(0.045, 0.05, 0.06);  // display-linear
-const float fill = 0.04;                          // of what a white surface would show at the mean
+const vec3 background = vec3(0.02, 0.022, 0.027);  // display-linear
+const float fill = 0.06;                          // of what a white surface would show at the mean
 
 // Khronos PBR Neutral (2024): colours below the shoulder stay as they are, brighter ones tend to white.
 vec3 compress(vec3 color) {
