@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/gl/program.h"
 
+#include <algorithm>
 #include <regex>
 
 #include "penumbra/device.h"
@@ -19,15 +20,16 @@ GLenum stageOf(std::string_view file) {
     throw Error(Error::Kind::shader, "shader file '" + std::string(file) + "' does not name its stage");
 }
 
-/// Drivers write "2:14(5): error" (Mesa) or "2(14) : error" (NVIDIA); puts the file's name for its number.
+/// Drivers write "0:14(5): error" (Mesa) or "0(14) : error" (NVIDIA); puts file and line for that.
 std::string withFileNames(const std::string& log, const std::vector<std::string>& files) {
-    static const std::regex place(R"((^|\n)(?:ERROR: )?(\d+)[:(](\d+)\)?)");
+    static const std::regex place(R"((^|\n)(?:ERROR: )?\d+[:(](\d+)\)?)");
     std::string text;
     auto last = log.cbegin();
     for (std::sregex_iterator it(log.begin(), log.end(), place), end; it != end; ++it) {
-        const std::size_t file = std::stoul((*it)[2]);
+        const std::size_t line = std::stoul((*it)[2]);
+        const std::size_t file = std::min(line / ShaderLibrary::Source::linesPerFile, files.size() - 1);
         text.append(last, (*it)[0].first);
-        text += (*it)[1].str() + (file < files.size() ? files[file] : (*it)[2].str()) + ":" + (*it)[3].str();
+        text += (*it)[1].str() + files[file] + ":" + std::to_string(line % ShaderLibrary::Source::linesPerFile);
         last = (*it)[0].second;
     }
     return text.append(last, log.cend());

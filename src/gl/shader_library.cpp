@@ -48,15 +48,13 @@ ShaderLibrary::Source ShaderLibrary::expand(std::string_view path, std::span<con
 
 void ShaderLibrary::expandInto(Source& source, std::string_view path, std::span<const std::string> defines) const {
     if (std::ranges::find(source.files, path) != source.files.end()) return;
-    const std::string fileNumber = std::to_string(source.files.size());
+    const int firstLine = int(source.files.size()) * Source::linesPerFile;
     source.files.emplace_back(path);
 
-    const auto continueAt = [&](int line) {
-        source.text += "#line " + std::to_string(line) + " " + fileNumber + "\n";
-    };
+    const auto continueAt = [&](int line) { source.text += "#line " + std::to_string(firstLine + line) + "\n"; };
     std::istringstream lines(read(path));
     std::string line;
-    if (fileNumber != "0") continueAt(1);
+    if (firstLine > 0) continueAt(1);
     for (int number = 1; std::getline(lines, line); ++number) {
         if (const std::string_view included = includedPath(line); !included.empty()) {
             expandInto(source, included, {});

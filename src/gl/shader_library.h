@@ -27,9 +27,11 @@ class ShaderLibrary {
     /// Adds a target's files. Their storage must outlive the library (they are in the binary).
     void add(std::span<const EmbeddedShader> shaders);
 
-    /// A file with all its `#include "path/from/root"` expanded once each, and the names that its `#line`
-    /// directives number.
+    /// A file with all its `#include "path/from/root"` expanded once each. Its `#line` directives number the lines of
+    /// files[i] from i * linesPerFile: the source-string number, which is meant for this, is 0 in Mesa's messages
+    /// whatever one says.
     struct Source {
+        static constexpr int linesPerFile = 100000;
         std::string text;
         std::vector<std::string> files;
     };

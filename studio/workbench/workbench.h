@@ -50,6 +50,9 @@ class Workbench {
     /// Throws NoOpenGLError.
     explicit Workbench(std::optional<int> device = std::nullopt);
 
+    /// Where a process has several, each call is for the one whose context is current.
+    void makeCurrent() const { context_.makeCurrent(); }
+
     Device& device() { return device_; }
     FrameRenderer& frame() { return frame_; }
 
