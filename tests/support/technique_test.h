@@ -20,13 +20,14 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// Fails a test after which the driver has reported an error, undefined behaviour or anything of high severity.
 class TechniqueTest : public ::testing::Test {
+  public:
+    /// One for the whole program: a device takes longer to make than most tests to run.
+    static Workbench& workbench();
+
   protected:
     static constexpr PictureSize defaultSize{160, 120};
 
     void TearDown() override;
-
-    /// One for the whole program: a device takes longer to make than most tests to run.
-    static Workbench& workbench();
 
     /// The first light's result, from the first camera.
     static LightResult render(std::string_view technique, const Scene& scene, PictureSize size = defaultSize,
