@@ -37,10 +37,14 @@ void SceneArguments::addTo(CLI::App& command) {
     command.add_option("--device", device, "index from 'penumbra list devices'");
 }
 
-Scene SceneArguments::open() const {
+OpenOptions SceneArguments::openOptions() const {
     OpenOptions options{.animation = animation, .scene = sceneIndex};
     if (lightsFile) options.lightsFile = *lightsFile;
-    Scene opened = openScene(scene, options);
+    return options;
+}
+
+Scene SceneArguments::open() const {
+    Scene opened = openScene(scene, openOptions());
     for (const std::string& warning : opened.warnings) spdlog::warn("{}", warning);
     return opened;
 }

@@ -29,6 +29,7 @@ struct SceneArguments {
     /// SCENE, --lights, --scene and --animation alone.
     void addSceneTo(CLI::App& command);
 
+    OpenOptions openOptions() const;
     /// Opens the scene and logs its warnings. Throws InputError.
     Scene open() const;
     /// Throws UsageError unless --size is WIDTHxHEIGHT.

@@ -45,11 +45,8 @@ ReferenceSummary summarize(const TechniqueResult& truth, int samples) {
     for (const LightResult& light : truth.lights) {
         summary.noise_rms = std::max(summary.noise_rms, countOf(light.statistics, "noise_rms"));
         summary.visibilities.push_back(light.visibility);
-        const double speed = countOf(light.statistics, "rays_per_second");
-        if (speed > 0) {
-            rays += countOf(light.statistics, "rays");
-            seconds += countOf(light.statistics, "rays") / speed;
-        }
+        rays += countOf(light.statistics, "rays");
+        seconds += countOf(light.statistics, "trace_seconds");
     }
     summary.raysPerSecond = seconds > 0 ? rays / seconds : 0;
     return summary;

@@ -55,7 +55,7 @@ Topology sum(const std::vector<Mesh>& meshes) {
 }
 
 void printInfo(const SceneArguments& arguments) {
-    const Scene scene = arguments.open();
+    const Scene scene = openScene(arguments.scene, arguments.openOptions());
     const SceneMoment moment = scene.at(0);
     std::size_t drawnTriangles = 0;
     for (const Instance& instance : moment.instances) {

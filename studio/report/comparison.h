@@ -32,7 +32,7 @@ struct TechniqueComparison {
 struct ReferenceSummary {
     int samples = 0;
     double noise_rms = 0;        ///< the largest of all lights
-    double raysPerSecond = 0;    ///< 0 where all traces came from the cache
+    double raysPerSecond = 0;    ///< when the traces were made; they may come from the cache
     Image display;               ///< sRGB-encoded RGB
     std::vector<Image> visibilities;  ///< one a light, in the order of TechniqueComparison::lights
 };

@@ -154,7 +154,7 @@ Statistics ReferenceTechnique::statistics() const {
     return {.counts = {{"samples", double(samples_)},
                        {"noise_rms", last_.noise_rms},
                        {"rays", double(last_.rays)},
-                       {"rays_per_second", last_.seconds > 0 ? double(last_.rays) / last_.seconds : 0, "1/s"}},
+                       {"trace_seconds", last_.seconds, "s"}},
             .passes = {{"reference/trace", 1e3 * last_.seconds}}};
 }
 

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command as a script meets it: exit codes, messages, files, JSON.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "studio/image/image_io.h"
+
+namespace penumbra::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+    int exitCode = -1;
+    std::string out, err;
+};
+
+std::string readText(const fs::path& path) {
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return std::move(text).str();
+}
+
+class CommandTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        fs::create_directories(folder);
+        // A cache of its own, so that no test depends on what others have left.
+        setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
+    }
+    void TearDown() override {
+        fs::permissions(folder, fs::perms::owner_all);
+        fs::remove_all(folder);
+    }
+
+    Outcome run(const std::string& arguments) const {
+        const fs::path out = folder / "stdout", err = folder / "stderr";
+        const int status = std::system(
+            (PENUMBRA_COMMAND " " + arguments + " >" + out.string() + " 2>" + err.string()).c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(out), readText(err)};
+    }
+    std::string at(const std::string& name) const { return (folder / name).string(); }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
+
+    /// Everything in the folder but what run() and the cache leave.
+    std::vector<std::string> files() const {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder)) {
+            const std::string name = entry.path().filename();
+            if (name != "stdout" && name != "stderr" && name != "cache") names.push_back(name);
+        }
+        std::ranges::sort(names);
+        return names;
+    }
+
+    const fs::path folder = fs::temp_directory_path() / ("penumbra-command-" + std::to_string(getpid()));
+};
+
+TEST_F(CommandTest, ListsWhatThereIs) {
+    const Outcome techniques = run("list techniques");
+    EXPECT_EQ(techniques.exitCode, 0);
+    EXPECT_NE(techniques.out.find("hard"), std::string::npos);
+    EXPECT_NE(techniques.out.find("reference"), std::string::npos);
+    EXPECT_NE(run("list scenes").out.find("primitives"), std::string::npos);
+    EXPECT_EQ(run("list devices").exitCode, 0);
+}
+
+TEST_F(CommandTest, WrongUseExitsWithTwo) {
+    for (const char* arguments :
+         {"", "paint", "render", "render primitives", "render primitives -o x.png --size 0x10",
+          "render primitives -o x.png --size big", "render primitives -o x.png -t harder",
+          "render primitives -o x.png -t hard --set map_size=x", "render primitives -o x.png -t hard --set mapsize=1",
+          "render primitives -o x.png -t hard --set map_size", "render primitives -o x.jpg",
+          "render primitives -o x.png --size 99999999x2", "render primitives --visibility v.png",
+          "render primitives -o x.png --camera nowhere", "render primitives -o x.png --frames 5-1",
+          "render primitives -o x.png --unknown", "compare primitives -t hard,harder", "list",
+          "compare primitives --samples 1"}) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 2) << arguments << "\n" << outcome.err;
+        EXPECT_FALSE(outcome.err.empty()) << arguments;
+    }
+}
+
+TEST_F(CommandTest, UnknownTechniqueIsAnsweredWithTheKnownOnes) {
+    const Outcome outcome = run("render primitives -t exactly -o " + at("a.png"));
+    EXPECT_EQ(outcome.exitCode, 2);
+    EXPECT_NE(outcome.err.find("exactly"), std::string::npos);
+    EXPECT_NE(outcome.err.find("reference"), std::string::npos);
+}
+
+TEST_F(CommandTest, BadInputExitsWithThree) {
+    write("broken.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"nodes\": [{\"mesh\": 7}]}");
+    write("lights.json", "{\"version\": 1, \"lights\": [{\"name\": \"a\", \"type\": \"SphereLight\", \"radus\": 1}]}");
+    for (const std::string& arguments :
+         {std::string("render /nonexistent.glb -o a.png"), "render primitivs -o " + at("a.png"),
+          "render " + at("broken.gltf") + " -o " + at("a.png"),
+          "render primitives -o " + at("a.png") + " --lights " + at("lights.json"),
+          "render primitives -o " + at("a.png") + " --lights " + at("missing.json"), "info " + folder.string()}) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 3) << arguments << "\n" << outcome.err;
+        EXPECT_FALSE(fs::exists(at("a.png"))) << arguments;
+    }
+    EXPECT_NE(run("render primitives -o a.png --lights " + at("lights.json")).err.find("radius"), std::string::npos)
+        << "the right name is suggested";
+}
+
+TEST_F(CommandTest, MissingDeviceExitsWithFour) {
+    EXPECT_EQ(run("render primitives -o " + at("a.png") + " --device 1000").exitCode, 4);
+}
+
+TEST_F(CommandTest, UnwritableOutputExitsWithFive) {
+    EXPECT_EQ(run("render primitives --size 32x32 -t hard -o " + at("missing/a.png")).exitCode, 5);
+    fs::create_directory(at("taken.png"));
+    const Outcome outcome = run("render primitives --size 32x32 -t hard -o " + at("taken.png"));
+    EXPECT_EQ(outcome.exitCode, 5) << outcome.err;
+    write("file", "");
+    EXPECT_EQ(run("compare primitives --size 32x32 -t hard -o " + at("file")).exitCode, 5);
+    EXPECT_EQ(files(), (std::vector<std::string>{"file", "taken.png"})) << "nothing half-written is left";
+}
+
+TEST_F(CommandTest, RendersPictureAndVisibility) {
+    const Outcome outcome = run("render many-lights -t hard --size 48x32 -o " + at("a.png") + " --visibility " +
+                                at("v.exr") + " --json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "v.exr"}));
+    const PngPicture picture = readPng(at("a.png"));
+    EXPECT_EQ(picture.image.width_px, 48);
+    EXPECT_EQ(picture.image.height_px, 32);
+    EXPECT_NE(picture.metadata.at("penumbra:command").find("many-lights"), std::string::npos);
+    const ExrPicture visibility = readExr(at("v.exr"));
+    EXPECT_EQ(visibility.channels.size(), 5u);
+    EXPECT_TRUE(visibility.channels.front().name.ends_with(".V")) << visibility.channels.front().name;
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json.at("lights").size(), 5u);
+}
+
+TEST_F(CommandTest, OneLightsVisibilityIsChannelV) {
+    ASSERT_EQ(run("render two-boxes -t hard --size 32x32 --visibility " + at("v.exr")).exitCode, 0);
+    EXPECT_EQ(readExr(at("v.exr")).channels.front().name, "V");
+}
+
+TEST_F(CommandTest, ExrIsLinearRadiance) {
+    ASSERT_EQ(run("render two-boxes -t hard --size 32x32 -o " + at("a.exr")).exitCode, 0);
+    const ExrPicture picture = readExr(at("a.exr"));
+    ASSERT_EQ(picture.channels.size(), 3u);
+    EXPECT_GT(std::ranges::max(picture.channels.front().values), 10) << "nits";
+}
+
+TEST_F(CommandTest, FramesAreNumberedAndCanBeTakenUpAgain) {
+    const std::string render = "render moving -t hard --size 32x24 --frames 1-5x2 --skip-existing -o ";
+    ASSERT_EQ(run(render + at("f.####.png")).exitCode, 0);
+    EXPECT_EQ(files(), (std::vector<std::string>{"f.0001.png", "f.0003.png", "f.0005.png"}));
+    EXPECT_NE(readText(at("f.0001.png")), readText(at("f.0005.png"))) << "it moves";
+
+    fs::remove(at("f.0003.png"));
+    write("f.0001.png", "kept");
+    ASSERT_EQ(run(render + at("f.####.png")).exitCode, 0);
+    EXPECT_EQ(readText(at("f.0001.png")), "kept");
+    EXPECT_TRUE(fs::exists(at("f.0003.png")));
+}
+
+TEST_F(CommandTest, CompareKeepsItsContract) {
+    const Outcome outcome =
+        run("compare two-boxes -t hard --size 64x48 --samples 16 --json -o " + at("report"));
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(json.at("scene"), "two-boxes");
+    EXPECT_EQ(json.at("size"), (std::vector<int>{64, 48}));
+    EXPECT_EQ(json.at("reference").at("samples"), 16);
+    EXPECT_GE(json.at("reference").at("noise_rms"), 0);
+    const auto& result = json.at("results").at(0);
+    for (const char* key : {"technique", "light", "rmse", "mae", "penumbra_rmse", "p99", "max", "leak",
+                            "false_shadow", "flip", "ms", "counts"}) {
+        EXPECT_TRUE(result.contains(key)) << key;
+    }
+    for (const char* key : {"median", "min", "max"}) EXPECT_TRUE(result.at("ms").contains(key)) << key;
+
+    for (const char* file : {"hard.png", "reference.png", "hard.visibility.png", "reference.visibility.png",
+                             "hard.difference.png", "contact-sheet.png", "report.html"}) {
+        EXPECT_TRUE(fs::exists(fs::path(at("report")) / file)) << file;
+    }
+    // Every picture that the report shows is there.
+    const std::string html = readText(fs::path(at("report")) / "report.html");
+    for (std::size_t from = html.find("src=\""); from != std::string::npos; from = html.find("src=\"", from + 5)) {
+        const std::string source = html.substr(from + 5, html.find('"', from + 5) - from - 5);
+        EXPECT_TRUE(fs::exists(fs::path(at("report")) / source)) << source;
+    }
+}
+
+TEST_F(CommandTest, SecondCompareTakesTheReferenceFromTheCache) {
+    const std::string compare = "compare torus -t hard --size 64x48 --samples 16 --json";
+    const auto first = nlohmann::json::parse(run(compare).out);
+    const auto second = nlohmann::json::parse(run(compare).out);
+    EXPECT_GT(first.at("reference").at("rays_per_second"), 0);
+    // A trace made anew would have taken another time.
+    EXPECT_EQ(first.at("reference"), second.at("reference"));
+    EXPECT_EQ(first.at("results").at(0).at("rmse"), second.at("results").at(0).at("rmse"));
+}
+
+TEST_F(CommandTest, SceneWithoutTrianglesIsAPicture) {
+    write("empty.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{}], \"scene\": 0}");
+    const Outcome outcome = run("render " + at("empty.gltf") + " -t hard --size 32x32 -o " + at("a.png"));
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_TRUE(fs::exists(at("a.png")));
+}
+
+TEST_F(CommandTest, LightsFileReplacesTheScenesLights) {
+    write("sun.json",
+          R"({"version": 1, "lights": [{"name": "sun", "type": "DistantLight", "angle": 0.53, "intensity": 50000}]})");
+    const Outcome outcome = run("info two-boxes --lights " + at("sun.json"));
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("sun: DistantLight of 0.53 degrees"), std::string::npos) << outcome.out;
+}
+
+TEST_F(CommandTest, InfoPrintsWhatWasLoaded) {
+    const Outcome outcome = run("info primitives");
+    ASSERT_EQ(outcome.exitCode, 0);
+    for (const char* word : {"triangles", "vertices", "bounds", "boundary edges", "RectLight", "camera"}) {
+        EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
+    }
+}
+
+}  // namespace
+}  // namespace penumbra::studio
