@@ -98,7 +98,7 @@ std::string toHtml(const Comparison& comparison) {
             html += "<div class=\"row\">" +
                     figure(visibilityFile(technique.technique, suffix), "visibility of " + light.light) +
                     figure(visibilityFile(std::string(referenceName), suffix), "truth") +
-                    figure(differenceFile(technique.technique, suffix), "difference x5 (red: too dark, blue: too light)") +
+                    figure(differenceFile(technique.technique, suffix), "difference x5 (red: too light, blue: too dark)") +
                     "</div>\n";
         }
     }
