@@ -6,6 +6,8 @@
 
 #include "penumbra/technique.h"
 #include "src/techniques/shadow_map/hard.h"
+#include "src/techniques/shadow_map/pcf.h"
+#include "src/techniques/shadow_map/pcss.h"
 
 namespace penumbra {
 namespace {
@@ -22,6 +24,8 @@ std::unique_ptr<Technique> make(Device& device) {
 
 constexpr std::array entries = {
     Entry{{"hard", "one shadow map from the light's centre: no penumbra (Williams 1978)", 0.30f}, make<HardShadowMap>},
+    Entry{{"pcf", "a shadow map filtered over a fixed kernel (Reeves et al. 1987)", 0.30f}, make<Pcf>},
+    Entry{{"pcss", "blocker search, then a filter as wide as the penumbra (Fernando 2005)", 0.02f}, make<Pcss>},
 };
 
 constexpr auto infos = [] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The comparison that all techniques of this room make, free of a bias that a user would have to tune.
+// The comparison that `hard` and `pcf` make, free of a bias that a user would have to tune.
 //
 // A texel stores the depth that its centre sees. The receiver is moved to where its own plane is seen through that
 // centre (receiverPlaneDepth_m), so that a flat surface compares equal with itself up to rounding, however steeply it
@@ -10,8 +10,14 @@
 const float toleranceTexels = 1.0;
 const float tolerancePrecision = 4e-6;  // some 32 ulps: positions come out of a 32-bit depth buffer and three transforms
 
-bool isTexelLit(int camera, MapPoint point, vec3 normalFace, ivec2 texel, int size_px) {
-    float stored = texelFetch(depthMaps, ivec3(texel, camera), 0).r;
+// The light's centre is above the surface's horizon, and the surface on the side to which the light emits.
+bool isFacingCenter(Receiver receiver, bool isDistant, bool isOneSided) {
+    vec3 towardsLight = isDistant ? vec3(0.0, 0.0, 1.0) : -receiver.posLight;
+    return dot(receiver.normalLight, towardsLight) > 0.0 && (!isOneSided || receiver.posLight.z < 0.0);
+}
+
+// Whether a texel that holds `stored` lets the light's centre see the receiver.
+bool isDepthLit(int camera, MapPoint point, vec3 normalFace, ivec2 texel, float stored, int size_px) {
     float farthest_m = 64.0 * point.texel_m;
     float receiver_m = receiverPlaneDepth_m(camera, point, normalFace, (vec2(texel) + 0.5) / float(size_px), farthest_m);
     float tolerance_m = toleranceTexels * point.texel_m + tolerancePrecision * length(point.posFace);
@@ -19,14 +25,18 @@ bool isTexelLit(int camera, MapPoint point, vec3 normalFace, ivec2 texel, int si
 }
 
 // 1 if the light's centre sees the receiver, going by the nearest texel; 0 if not.
-float nearestTexelLit(int mapCount, Receiver receiver) {
+float nearestTexelLit(int camera, MapPoint point, vec3 normalFace) {
     int size_px = textureSize(depthMaps, 0).x;
+    ivec2 texel = ivec2(point.uv * float(size_px));
+    float stored = texelFetch(depthMaps, ivec3(texel, camera), 0).r;
+    return isDepthLit(camera, point, normalFace, texel, stored, size_px) ? 1.0 : 0.0;
+}
+
+// The first camera that sees the receiver, or -1.
+int findCamera(int mapCount, vec3 posLight, out MapPoint point) {
     for (int camera = 0; camera < mapCount; ++camera) {
-        MapPoint point = mapPoint(camera, receiver.posLight);
-        if (!isInWindow(camera, point)) continue;
-        vec3 normalFace = mat3(lightCameras[camera].faceFromLight) * receiver.normalLight;
-        ivec2 texel = ivec2(point.uv * float(size_px));
-        return isTexelLit(camera, point, normalFace, texel, size_px) ? 1.0 : 0.0;
+        point = mapPoint(camera, posLight);
+        if (isInWindow(camera, point)) return camera;
     }
-    return 1.0;
+    return -1;
 }

@@ -13,17 +13,18 @@ layout(location = 0) uniform int mapCount;
 layout(location = 1) uniform bool isDistant;
 layout(location = 2) uniform bool isOneSided;
 
-// The light's centre is above the surface's horizon, and the surface on the side to which the light emits.
-bool isFacing(Receiver receiver) {
-    vec3 towardsLight = isDistant ? vec3(0.0, 0.0, 1.0) : -receiver.posLight;
-    return dot(receiver.normalLight, towardsLight) > 0.0 && (!isOneSided || receiver.posLight.z < 0.0);
+float seenBy(Receiver receiver) {
+    if (!isFacingCenter(receiver, isDistant, isOneSided)) return 0.0;
+    MapPoint point;
+    int camera = findCamera(mapCount, receiver.posLight, point);
+    if (camera < 0) return 1.0;
+    return nearestTexelLit(camera, point, mat3(lightCameras[camera].faceFromLight) * receiver.normalLight);
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
     Receiver receiver;
-    float seen = 1.0;
-    if (loadReceiver(pixel, receiver)) seen = isFacing(receiver) ? nearestTexelLit(mapCount, receiver) : 0.0;
+    float seen = loadReceiver(pixel, receiver) ? seenBy(receiver) : 1.0;
     imageStore(visibility, pixel, vec4(seen));
 }

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/techniques/shadow_map/pcf.h"
+
+#include <array>
+
+#include "src/techniques/shadow_map/patterns.h"
+#include "src/techniques/shadow_map/window_margin.h"
+
+namespace penumbra {
+namespace {
+
+constexpr int poissonCount = 16;
+constexpr std::array<std::string_view, 5> kernelNames = {"2x2", "3x3", "5x5", "bicubic", "poisson"};
+
+}  // namespace
+
+Pcf::Pcf(Device& device)
+    : depthMap_(device),
+      resolve_(device.internals().shaders, {"src/techniques/shadow_map/pcf.comp.glsl"}),
+      poissonDisk_("pcf/poisson disk") {
+    poissonDisk_.write(poissonDisk(poissonCount));
+}
+
+void Pcf::describe(ParameterVisitor& visitor) {
+    visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"}, mapSize_px_,
+                    {16, 16384});
+    visitor.choice({.name = "kernel",
+                    .help = "2x2: bilinear; 3x3, 5x5: tents of that width; bicubic: a B-spline over 4x4; poisson: a "
+                            "disk of 16 bilinear taps"},
+                   kernel_, kernelNames);
+    visitor.real({.name = "radius", .unit = "texels", .help = "of the Poisson disk; the other kernels have their own"},
+                 radius_px_, {0, 64});
+}
+
+double Pcf::reach_px() const {
+    switch (Kernel(kernel_)) {
+        case Kernel::bilinear: return 1;
+        case Kernel::tent3:
+        case Kernel::bicubic: return 2;
+        case Kernel::tent5: return 3;
+        case Kernel::poisson: break;
+    }
+    return radius_px_ + 1.0;
+}
+
+void Pcf::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
+    checkInputs(inputs, out);
+    const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
+    const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
+    std::vector<LightCamera> cameras = fitLightCameras(inputs.light, scene, {.mapSize_px = mapSize_px_});
+    widenByTexels(cameras, reach_px(), mapSize_px_);
+    {
+        const auto pass = timers_.pass("pcf/depth map");
+        depthMap_.render(inputs.casters, scene, cameras, mapSize_px_);
+    }
+    {
+        const auto pass = timers_.pass("pcf/resolve");
+        resolve_.use();
+        view_.bind(inputs.view, lightFromWorldMatrix);
+        depthMap_.bind(3, 0);
+        poissonDisk_.bind(1);
+        bindVisibility(out, 0);
+        glUniform1i(0, depthMap_.count());
+        glUniform1i(1, inputs.light.shape == LightShape::distant);
+        glUniform1i(2, isOneSided(inputs.light));
+        glUniform1i(3, kernel_);
+        glUniform1f(4, radius_px_);
+        glUniform1i(5, poissonCount);
+        gl::dispatchPixels(out.width_px(), out.height_px());
+        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    }
+}
+
+void Pcf::inspect(InspectionVisitor& visitor) const {
+    visitor.texture({.name = "depth map", .texture = depthMap_.texture().name(), .layers = depthMap_.count()});
+}
+
+Statistics Pcf::statistics() const {
+    Statistics statistics;
+    statistics.counts.push_back({"maps", double(depthMap_.count())});
+    statistics.passes = passTimes(timers_);
+    return statistics;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 450
+// Percentage-closer soft shadows (Fernando 2005): search for blockers, estimate the penumbra, filter. See README.md for
+// what departs from the sketch, and why.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#include "src/techniques/common/view.glsl"
+#define DEPTH_MAP_UNIT 3
+#define DEPTH_MAP_BLOCK 0
+#include "src/techniques/common/depth_map.glsl"
+#include "src/techniques/shadow_map/light_frame.glsl"
+#include "src/techniques/shadow_map/nearest_tiles.glsl"
+#include "src/techniques/shadow_map/pcss_io.h"
+
+layout(std140, binding = 1) uniform PcssBlock { PcssConstants pcss; };
+layout(std430, binding = 1) readonly buffer SearchPattern { vec4 searchPattern[]; };  // direction, distance
+layout(std430, binding = 2) readonly buffer FilterPattern { vec2 filterPattern[]; };  // square or disk
+layout(std430, binding = 3) readonly buffer NearestTiles { float nearestTiles[]; };
+
+layout(binding = 4) uniform sampler2D radiance;
+layout(binding = 0) uniform writeonly image2D visibility;
+
+const float largestK = 1e4;
+
+// What makes one pixel's pattern differ from the next one's; nothing by default.
+struct Dither {
+    mat2 rotation;
+    vec2 shift;
+};
+
+// Interleaved gradient noise (Jimenez 2014).
+float gradientNoise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
+
+Dither ditherOf(ivec2 pixel) {
+    if (pcss.search.z == 0) return Dither(mat2(1.0), vec2(0.0));
+    float noise = gradientNoise(vec2(pixel));
+    float angle = 6.2831853 * noise;
+    mat2 rotation = mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
+    return Dither(rotation, vec2(noise, gradientNoise(vec2(pixel) + 5.588238)));
+}
+
+LightFrame frameOf(Receiver receiver, vec3 upLight) {
+    LightFrame frame;
+    frame.pos = receiver.posLight;
+    frame.normal = receiver.normalLight;
+    frame.axisX = vec3(pcss.extent.x, 0.0, 0.0);
+    frame.axisY = vec3(0.0, pcss.extent.y, 0.0);
+    frame.away = vec3(0.0, 0.0, receiver.posLight.z < 0.0 || pcss.light.x == shapeDistant ? -1.0 : 1.0);
+    frame.distance_m = pcss.light.x == shapeDistant ? 1.0 : abs(receiver.posLight.z);
+    if (pcss.light.x == shapeSphere) {
+        // The disk through the centre that fills the cone in which the sphere is seen.
+        frame.distance_m = max(length(receiver.posLight), 1e-30);
+        frame.away = receiver.posLight / frame.distance_m;
+        float sine = min(pcss.extent.x / frame.distance_m, 0.999);
+        float radius_m = frame.distance_m * sine / sqrt(1.0 - sine * sine);
+        vec3 sideways = normalize(cross(upLight, frame.away));
+        frame.axisX = radius_m * sideways;
+        frame.axisY = radius_m * cross(frame.away, sideways);
+    }
+    return frame;
+}
+
+// A point of the unit disk, spread evenly over it, as one spread evenly over the cone's solid angle: with u = r^2, the
+// cosine is 1 - u (1 - cos A), and the radius the tangent that goes with it, divided by that of A.
+vec2 evenInSolidAngle(vec2 place, float oneMinusCosine) {
+    float m = oneMinusCosine, u = dot(place, place);
+    return place * sqrt((2.0 - u * m) / (2.0 - m)) * (1.0 - m) / (1.0 - u * m);
+}
+
+vec2 lightPlace(int i, Dither dither, float oneMinusCosine) {
+    vec2 place = filterPattern[i];
+    if (pcss.light.x == shapeRect) return pcss.search.z == 0 ? place : 2.0 * fract(0.5 * place + 0.5 + dither.shift) - 1.0;
+    place = dither.rotation * place;
+    return pcss.light.x == shapeDisk ? place : evenInSolidAngle(place, oneMinusCosine);
+}
+
+// The largest k that a blocker may have in the part of the map where the light's outline, times k, is seen.
+float largestKWithin(int camera, LightFrame face, float k) {
+    LightCameraConstants c = lightCameras[camera];
+    bool orthographic = c.depth.z == 1.0;
+    vec2 low = vec2(1e30), high = vec2(-1e30);
+    for (int i = 0; i < 4; ++i) {
+        vec2 corner = k * vec2((i & 1) * 2 - 1, (i & 2) - 1);
+        vec3 aim = face.pos + corner.x * face.axisX + corner.y * face.axisY;
+        bool isInFront = orthographic || aim.z > 0.0;
+        vec2 uv = ((orthographic ? aim.xy : aim.xy / aim.z) - c.window.xy) * c.window.zw;
+        low = isInFront ? min(low, uv) : vec2(-1.0);
+        high = isInFront ? max(high, uv) : vec2(2.0);
+        if (!isInFront) break;
+    }
+
+    float closest = -3.4e38;
+    bool isInside = all(greaterThanEqual(low, vec2(0.0))) && all(lessThan(high, vec2(1.0)));
+    if (isInside || pcss.light.w == 1) {
+        float tiles = float(textureSize(depthMaps, 0).x) / float(pcss.search.w);
+        ivec2 first = min(ivec2(clamp(low, 0.0, 1.0) * tiles), tilesAcross - 1);
+        ivec2 last = min(ivec2(clamp(high, 0.0, 1.0) * tiles), tilesAcross - 1);
+        int level = 0;
+        while (level < pyramidLevels - 1 && any(greaterThan((last >> level) - (first >> level), ivec2(1)))) ++level;
+        first >>= level;
+        last >>= level;
+        int start = camera * tilesPerMap + pyramidStart(level), across = tilesAcross >> level;
+        closest = max(max(nearestTiles[start + first.y * across + first.x], nearestTiles[start + first.y * across + last.x]),
+                      max(nearestTiles[start + last.y * across + first.x], nearestTiles[start + last.y * across + last.x]));
+    } else {
+        for (int map = 0; map < pcss.light.w; ++map) {
+            closest = max(closest, nearestTiles[map * tilesPerMap + tilesPerMap - 1]);
+        }
+    }
+    float largest = orthographic ? face.pos.z + closest : face.distance_m * closest - 1.0;
+    // A blocker nearer to the receiver than the tolerance is none.
+    return largest < 0.5 * toleranceTexels * c.depth.w ? 0.0 : min(largest, largestK);
+}
+
+// The mean k of the blockers that may hide some of the light, each weighted by how much of it; 0 if there are none.
+float searchBlockers(int camera, LightFrame face, LightFrame lightFrame, Dither dither) {
+    float k = largestK;
+    for (int i = 0; i < 3; ++i) k = min(k, largestKWithin(camera, face, k));
+    if (k == 0.0) return 0.0;
+
+    float sum = 0.0, sumOfWeights = 0.0;
+    for (int i = 0; i < pcss.search.x; ++i) {
+        vec2 direction = dither.rotation * searchPattern[i].xy;
+        float outline = pcss.light.x == shapeRect ? 1.0 / max(abs(direction.x), abs(direction.y)) : 1.0;
+        float distanceInLights = k * searchPattern[i].z;
+        Tap tap = tapAny(camera, pcss.light.w, face, lightFrame, distanceInLights * outline * direction);
+        if (!tap.isBlocked || tap.k < distanceInLights) continue;
+        // Its part of the pattern's area (distances are even, hence the factor), divided by k^2: of the light's area.
+        float weight = max(searchPattern[i].z, 0.25 / float(pcss.search.x)) * outline * outline / (tap.k * tap.k);
+        sum += weight * tap.k;
+        sumOfWeights += weight;
+    }
+    return sumOfWeights > 0.0 ? min(sum / sumOfWeights, largestK) : 0.0;
+}
+
+vec3 seenBy(Receiver receiver, Dither dither) {
+    bool isDistant = pcss.light.x == shapeDistant;
+    if (pcss.light.y == 1 && receiver.posLight.z >= 0.0) return vec3(0.0);
+    int camera = -1;
+    MapPoint point;
+    for (int i = 0; i < pcss.light.w && camera < 0; ++i) {
+        point = mapPoint(i, receiver.posLight);
+        if (isInWindow(i, point)) camera = i;
+    }
+    vec3 upLight = camera < 0 ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 1.0, 0.0) * mat3(lightCameras[camera].faceFromLight);
+    LightFrame frame = frameOf(receiver, upLight);
+
+    // None of the light, or nothing but a line of it, above the horizon.
+    vec2 slope = vec2(dot(frame.normal, frame.axisX), dot(frame.normal, frame.axisY));
+    float widest = pcss.light.x == shapeRect ? abs(slope.x) + abs(slope.y) : length(slope);
+    float center = dot(frame.normal, towardsLight(frame, vec2(0.0), isDistant));
+    if (center + widest <= 0.0) return vec3(0.0);
+    if (camera < 0 || frame.distance_m == 0.0) return vec3(1.0);
+
+    LightFrame face = faceFrame(camera, frame);
+    float k = searchBlockers(camera, face, frame, dither);
+    if (k == 0.0) return vec3(1.0);
+
+    float sine = min(pcss.extent.x / frame.distance_m, 0.999);
+    float oneMinusCosine =
+        pcss.light.x == shapeSphere ? sine * sine / (1.0 + sqrt(1.0 - sine * sine)) : pcss.extent.z;
+    vec3 lit = vec3(0.0), all = vec3(0.0);
+    for (int i = 0; i < pcss.search.y; ++i) {
+        vec2 place = lightPlace(i, dither, oneMinusCosine);
+        if (center + dot(slope, place) <= 0.0) continue;
+        vec3 weight = pcss.light.z == 1 ? textureLod(radiance, 0.5 * place + 0.5, 0.0).rgb : vec3(1.0);
+        all += weight;
+        if (!tapAny(camera, pcss.light.w, face, frame, k * place).isBlocked) lit += weight;
+    }
+    return mix(vec3(0.0), lit / max(all, vec3(1e-30)), greaterThan(all, vec3(0.0)));
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
+    Receiver receiver;
+    vec3 seen = loadReceiver(pixel, receiver) ? seenBy(receiver, ditherOf(pixel)) : vec3(1.0);
+    imageStore(visibility, pixel, vec4(clamp(seen, 0.0, 1.0), 1.0));
+}

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/techniques/shadow_map/pcss.h"
+
+#include <array>
+#include <cmath>
+
+#include "src/techniques/shadow_map/light_extent.h"
+#include "src/techniques/shadow_map/patterns.h"
+#include "src/techniques/shadow_map/window_margin.h"
+
+namespace penumbra {
+namespace {
+
+constexpr std::array<std::string_view, 2> patternNames = {"fixed", "rotated"};
+
+AreaLight scaled(AreaLight light, float scale) {
+    light.width_m *= scale;
+    light.height_m *= scale;
+    light.radius_m *= scale;
+    light.angle_rad = std::min(light.angle_rad * scale, 3.1415927f);
+    return light;
+}
+
+bool hasSize(const AreaLight& light) { return lightExtent(light) != glm::dvec2(0); }
+
+}  // namespace
+
+Pcss::Pcss(Device& device)
+    : depthMap_(device),
+      nearestTiles_(device),
+      resolve_(device.internals().shaders, {"src/techniques/shadow_map/pcss.comp.glsl"}),
+      constants_("pcss/constants"),
+      searchPattern_("pcss/search pattern"),
+      filterPattern_("pcss/filter pattern") {}
+
+void Pcss::describe(ParameterVisitor& visitor) {
+    visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"}, mapSize_px_,
+                    {16, 16384});
+    visitor.integer({.name = "search_samples", .help = "looks into the map to find blockers"}, searchSamples_, {1, 1024});
+    visitor.integer({.name = "filter_samples", .help = "looks into the map to average over the penumbra"},
+                    filterSamples_, {1, 1024});
+    visitor.choice({.name = "pattern", .help = "fixed: no noise; rotated: another one at each pixel, for few samples"},
+                   pattern_, patternNames);
+    visitor.real({.name = "light_scale",
+                  .help = "times the light's size, the sketch's w_Light; 1 is what the light's size and distance say"},
+                 lightScale_, {0, 100});
+}
+
+PcssConstants Pcss::constantsOf(const AreaLight& light) const {
+    const glm::dvec2 extent = lightExtent(light);
+    const double cosine = 1 / std::sqrt(1 + extent.x * extent.x);
+    // A light without a size looks the same from every sample.
+    const bool soft = hasSize(light);
+    return {
+        .extent = glm::dvec4(extent, 1 - cosine, 0),
+        .light = {int(light.shape), isOneSided(light), light.radianceTexture != 0, depthMap_.count()},
+        .search = {soft ? searchSamples_ : 1, soft ? filterSamples_ : 1, Pattern(pattern_) == Pattern::rotated,
+                   nearestTiles_.tile_px()},
+    };
+}
+
+void Pcss::updatePatterns(const AreaLight& light) {
+    if (searchPatternSize_ != searchSamples_) {
+        searchPattern_.write(searchPattern(searchSamples_));
+        searchPatternSize_ = searchSamples_;
+    }
+    const bool isSquare = light.shape == LightShape::rect;
+    if (filterPatternSize_ != filterSamples_ || filterPatternIsSquare_ != isSquare) {
+        filterPattern_.write(isSquare ? squarePattern(filterSamples_) : diskPattern(filterSamples_));
+        filterPatternSize_ = filterSamples_;
+        filterPatternIsSquare_ = isSquare;
+    }
+}
+
+void Pcss::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
+    checkInputs(inputs, out);
+    const AreaLight light = scaled(inputs.light, lightScale_);
+    const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
+    const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
+    std::vector<LightCamera> cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px_});
+    widenForLight(cameras, light, scene);
+    updatePatterns(light);
+    {
+        const auto pass = timers_.pass("pcss/depth map");
+        depthMap_.render(inputs.casters, scene, cameras, mapSize_px_);
+    }
+    {
+        const auto pass = timers_.pass("pcss/nearest blockers");
+        nearestTiles_.build(depthMap_, light.shape);
+    }
+    {
+        const auto pass = timers_.pass("pcss/resolve");
+        resolve_.use();
+        view_.bind(inputs.view, lightFromWorldMatrix);
+        depthMap_.bind(3, 0);
+        constants_.write(constantsOf(light));
+        constants_.bindUniform(1);
+        searchPattern_.bind(1);
+        filterPattern_.bind(2);
+        nearestTiles_.bind(3);
+        glBindTextureUnit(4, light.radianceTexture);
+        bindVisibility(out, 0);
+        gl::dispatchPixels(out.width_px(), out.height_px());
+        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    }
+}
+
+void Pcss::inspect(InspectionVisitor& visitor) const {
+    visitor.texture({.name = "depth map", .texture = depthMap_.texture().name(), .layers = depthMap_.count()});
+}
+
+Statistics Pcss::statistics() const {
+    Statistics statistics;
+    statistics.counts.push_back({"maps", double(depthMap_.count())});
+    statistics.counts.push_back({"search samples", double(searchSamples_), "a pixel"});
+    statistics.counts.push_back({"filter samples", double(filterSamples_), "a pixel"});
+    statistics.passes = passTimes(timers_);
+    return statistics;
+}
+
+}  // namespace penumbra
