@@ -100,7 +100,9 @@ void writeComparison(const std::filesystem::path& folder, const Comparison& comp
     const auto write = [&](const std::string& file, const Image& image) { writePng(folder / file, image, metadata); };
 
     write(reference + ".png", comparison.reference.display);
+    // One row for each: the picture, then its visibility (the truth) or its errors, light by light.
     sheet.push_back({reference, comparison.reference.display});
+    for (const Image& truth : comparison.reference.visibilities) sheet.push_back({"visibility", truth});
     for (const TechniqueComparison& technique : comparison.techniques) {
         write(technique.technique + ".png", technique.display);
         sheet.push_back({technique.technique, technique.display});
@@ -112,10 +114,10 @@ void writeComparison(const std::filesystem::path& folder, const Comparison& comp
             write(visibilityFile(reference, suffix), truth);
             write(visibilityFile(technique.technique, suffix), light.visibility);
             write(differenceFile(technique.technique, suffix), difference);
-            sheet.push_back({technique.technique + " x5" + suffix, difference});
+            sheet.push_back({technique.technique + suffix + " - truth, x5", difference});
         }
     }
-    write("contact-sheet.png", contactSheet(sheet, std::min(3, int(sheet.size()))));
+    write("contact-sheet.png", contactSheet(sheet, 1 + int(comparison.reference.visibilities.size())));
     writeFileAtomically(folder / "report.html", toHtml(comparison));
 }
 
