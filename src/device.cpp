@@ -13,8 +13,8 @@
 namespace penumbra {
 namespace {
 
-/// libepoxy ends the process when OpenGL is called without a context, so the platform libraries that the host has
-/// loaded are asked first; none of them is loaded for the question's sake.
+/// libepoxy ends the process when OpenGL is called without a context, so the platform libraries that the host
+/// has loaded are asked first; none of them is loaded for the question's sake.
 bool hasCurrentContext() {
     using GetCurrentContext = void* (*)();
     for (const auto& [library, function] :
@@ -39,7 +39,8 @@ void requireOpenGL45() {
     if (!epoxy_is_desktop_gl() || version < 45) {
         throw Error(Error::Kind::noOpenGL, "Penumbra needs OpenGL 4.5; the current context has " +
                                                std::string(epoxy_is_desktop_gl() ? "OpenGL " : "OpenGL ES ") +
-                                               std::to_string(version / 10) + "." + std::to_string(version % 10));
+                                               std::to_string(version / 10) + "." +
+                                               std::to_string(version % 10));
     }
 }
 
@@ -49,7 +50,9 @@ int integer(GLenum name) {
     return value;
 }
 
-std::string text(GLenum name) { return reinterpret_cast<const char*>(glGetString(name)); }
+std::string text(GLenum name) {
+    return reinterpret_cast<const char*>(glGetString(name));
+}
 
 gl::DebugLog startLog(std::function<void(LogLevel, std::string_view)>&& log) {
     requireOpenGL45();
@@ -77,11 +80,23 @@ Device::Device(Device&&) noexcept = default;
 Device& Device::operator=(Device&&) noexcept = default;
 Device::~Device() = default;
 
-const std::string& Device::renderer() const { return internals_->renderer; }
-const std::string& Device::version() const { return internals_->version; }
-bool Device::isSoftware() const { return internals_->isSoftware; }
-int Device::maxTextureSize_px() const { return internals_->maxTextureSize_px; }
-int Device::severeMessageCount() const { return internals_->log.severeMessageCount(); }
-void Device::reloadShaders() { internals_->shaders.reload(); }
+const std::string& Device::renderer() const {
+    return internals_->renderer;
+}
+const std::string& Device::version() const {
+    return internals_->version;
+}
+bool Device::isSoftware() const {
+    return internals_->isSoftware;
+}
+int Device::maxTextureSize_px() const {
+    return internals_->maxTextureSize_px;
+}
+int Device::severeMessageCount() const {
+    return internals_->log.severeMessageCount();
+}
+void Device::reloadShaders() {
+    internals_->shaders.reload();
+}
 
 }  // namespace penumbra

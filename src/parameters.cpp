@@ -35,8 +35,12 @@ class Setter final : public ParameterVisitor {
             reject("true or false");
         }
     }
-    void integer(const ParameterInfo& info, int& value, Range<int> range) override { number(info, value, range); }
-    void real(const ParameterInfo& info, float& value, Range<float> range) override { number(info, value, range); }
+    void integer(const ParameterInfo& info, int& value, Range<int> range) override {
+        number(info, value, range);
+    }
+    void real(const ParameterInfo& info, float& value, Range<float> range) override {
+        number(info, value, range);
+    }
     void choice(const ParameterInfo& info, int& value, std::span<const std::string_view> names) override {
         if (!matches(info)) return;
         const auto found = std::ranges::find(names, text_);

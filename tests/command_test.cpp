@@ -47,7 +47,9 @@ class CommandTest : public ::testing::Test {
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(out), readText(err)};
     }
     std::string at(const std::string& name) const { return (folder / name).string(); }
-    void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder / name) << text;
+    }
 
     /// Everything in the folder but what run() and the cache leave.
     std::vector<std::string> files() const {
@@ -76,7 +78,8 @@ TEST_F(CommandTest, WrongUseExitsWithTwo) {
     for (const char* arguments :
          {"", "paint", "render", "render primitives", "render primitives -o x.png --size 0x10",
           "render primitives -o x.png --size big", "render primitives -o x.png -t harder",
-          "render primitives -o x.png -t hard --set map_size=x", "render primitives -o x.png -t hard --set mapsize=1",
+          "render primitives -o x.png -t hard --set map_size=x",
+          "render primitives -o x.png -t hard --set mapsize=1",
           "render primitives -o x.png -t hard --set map_size", "render primitives -o x.jpg",
           "render primitives -o x.png --size 99999999x2", "render primitives --visibility v.png",
           "render primitives -o x.png --camera nowhere", "render primitives -o x.png --frames 5-1",
@@ -97,17 +100,20 @@ TEST_F(CommandTest, UnknownTechniqueIsAnsweredWithTheKnownOnes) {
 
 TEST_F(CommandTest, BadInputExitsWithThree) {
     write("broken.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"nodes\": [{\"mesh\": 7}]}");
-    write("lights.json", "{\"version\": 1, \"lights\": [{\"name\": \"a\", \"type\": \"SphereLight\", \"radus\": 1}]}");
+    write("lights.json",
+          "{\"version\": 1, \"lights\": [{\"name\": \"a\", \"type\": \"SphereLight\", \"radus\": 1}]}");
     for (const std::string& arguments :
          {std::string("render /nonexistent.glb -o a.png"), "render primitivs -o " + at("a.png"),
           "render " + at("broken.gltf") + " -o " + at("a.png"),
           "render primitives -o " + at("a.png") + " --lights " + at("lights.json"),
-          "render primitives -o " + at("a.png") + " --lights " + at("missing.json"), "info " + folder.string()}) {
+          "render primitives -o " + at("a.png") + " --lights " + at("missing.json"),
+          "info " + folder.string()}) {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.exitCode, 3) << arguments << "\n" << outcome.err;
         EXPECT_FALSE(fs::exists(at("a.png"))) << arguments;
     }
-    EXPECT_NE(run("render primitives -o a.png --lights " + at("lights.json")).err.find("radius"), std::string::npos)
+    EXPECT_NE(run("render primitives -o a.png --lights " + at("lights.json")).err.find("radius"),
+              std::string::npos)
         << "the right name is suggested";
 }
 
@@ -126,8 +132,8 @@ TEST_F(CommandTest, UnwritableOutputExitsWithFive) {
 }
 
 TEST_F(CommandTest, RendersPictureAndVisibility) {
-    const Outcome outcome = run("render many-lights -t hard --size 48x32 -o " + at("a.png") + " --visibility " +
-                                at("v.exr") + " --json");
+    const Outcome outcome = run("render many-lights -t hard --size 48x32 -o " + at("a.png") +
+                                " --visibility " + at("v.exr") + " --json");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(files(), (std::vector<std::string>{"a.png", "v.exr"}));
     const PngPicture picture = readPng(at("a.png"));
@@ -188,7 +194,8 @@ TEST_F(CommandTest, CompareKeepsItsContract) {
     }
     // Every picture that the report shows is there.
     const std::string html = readText(fs::path(at("report")) / "report.html");
-    for (std::size_t from = html.find("src=\""); from != std::string::npos; from = html.find("src=\"", from + 5)) {
+    for (std::size_t from = html.find("src=\""); from != std::string::npos;
+         from = html.find("src=\"", from + 5)) {
         const std::string source = html.substr(from + 5, html.find('"', from + 5) - from - 5);
         EXPECT_TRUE(fs::exists(fs::path(at("report")) / source)) << source;
     }
@@ -212,8 +219,9 @@ TEST_F(CommandTest, SceneWithoutTrianglesIsAPicture) {
 }
 
 TEST_F(CommandTest, LightsFileReplacesTheScenesLights) {
-    write("sun.json",
-          R"({"version": 1, "lights": [{"name": "sun", "type": "DistantLight", "angle": 0.53, "intensity": 50000}]})");
+    write(
+        "sun.json",
+        R"({"version": 1, "lights": [{"name": "sun", "type": "DistantLight", "angle": 0.53, "intensity": 50000}]})");
     const Outcome outcome = run("info two-boxes --lights " + at("sun.json"));
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("sun: DistantLight of 0.53 degrees"), std::string::npos) << outcome.out;

@@ -46,9 +46,8 @@ void expectInRange(const Image& visibility) {
 
 /// Looking straight down on the half-plane scene, where V = clamp(1/2 + x): see scenes_closed_form.cpp.
 Scene halfPlaneFromAbove() {
-    return withMoment(makeBuiltin("half-plane"), [](SceneMoment& moment) {
-        moment.cameras.erase(moment.cameras.begin());
-    });
+    return withMoment(makeBuiltin("half-plane"),
+                      [](SceneMoment& moment) { moment.cameras.erase(moment.cameras.begin()); });
 }
 
 double halfPlaneX(int column, PictureSize size) {
@@ -61,8 +60,8 @@ TEST_P(Contract, EverythingIsLitWithoutCasters) {
         SCOPED_TRACE(scene);
         const Scene empty = withoutCasters(makeBuiltin(scene));
         const LightResult result = render(name(), empty);
-        // 1 where the light's centre is above the horizon, 0 where all of it is below. In between the truth is 1 too,
-        // but techniques that look from the centre alone cannot know.
+        // 1 where the light's centre is above the horizon, 0 where all of it is below. In between the truth
+        // is 1 too, but techniques that look from the centre alone cannot know.
         const LightResult ofCenter = truth(withLight(empty, shrinkToPoint), defaultSize, 2);
         const LightResult ofLight = truth(empty, defaultSize, 2);
         for (std::size_t i = 0; i < result.visibility.values.size(); ++i) {
@@ -83,7 +82,8 @@ TEST_P(Contract, VisibilityLiesBetweenZeroAndOneInEveryBuiltinScene) {
 }
 
 TEST_P(Contract, EveryLightShapeAndSideWorks) {
-    for (const LightShape shape : {LightShape::rect, LightShape::disk, LightShape::sphere, LightShape::distant}) {
+    for (const LightShape shape :
+         {LightShape::rect, LightShape::disk, LightShape::sphere, LightShape::distant}) {
         for (const bool twoSided : {false, true}) {
             const Scene scene = withLight(makeBuiltin("two-boxes"), [&](Light& light) {
                 light.shape.shape = shape;
@@ -97,7 +97,8 @@ TEST_P(Contract, EveryLightShapeAndSideWorks) {
 }
 
 TEST_P(Contract, LightOfSizeZeroIsAHardShadow) {
-    // What is left is the map's resolution along shadow edges: at most 2 % of the pixels of these small pictures.
+    // What is left is the map's resolution along shadow edges: at most 2 % of the pixels of these small
+    // pictures.
     for (const char* builtin : {"primitives", "two-boxes", "torus"}) {
         const Scene scene = withLight(makeBuiltin(builtin), shrinkToPoint);
         EXPECT_LE(shareOfDifferentPixels(truth(scene), render(name(), scene), 0.5f), 0.02) << builtin;
@@ -219,8 +220,8 @@ TEST_P(Contract, ScaledAndShiftedScenesLookTheSame) {
         });
     };
     const LightResult plain = render(name(), moved(1, 0));
-    // Powers of two change no mantissa, yet constants of length (there should be none) would show; a shift by a
-    // hundred scene sizes costs seven bits of every coordinate, which moves edges by less than a pixel.
+    // Powers of two change no mantissa, yet constants of length (there should be none) would show; a shift by
+    // a hundred scene sizes costs seven bits of every coordinate, which moves edges by less than a pixel.
     EXPECT_LE(shareOfDifferentPixels(plain, render(name(), moved(1024, 0)), 0.02f), 0.005);
     EXPECT_LE(shareOfDifferentPixels(plain, render(name(), moved(1.0f / 1024, 0)), 0.02f), 0.005);
     EXPECT_LE(shareOfDifferentPixels(plain, render(name(), moved(1, 300)), 0.1f), 0.02);
@@ -236,7 +237,8 @@ TEST_P(Contract, BlockersBehindTheLightOrBelowTheReceiverDoNothing) {
     };
     const LightResult plain = render(name(), makeBuiltin("two-boxes"));
     for (const float height_m : {40.0f, -30.0f}) {
-        EXPECT_LE(shareOfDifferentPixels(plain, render(name(), withExtraBox(height_m)), 0.1f), 0.01) << height_m;
+        EXPECT_LE(shareOfDifferentPixels(plain, render(name(), withExtraBox(height_m)), 0.1f), 0.01)
+            << height_m;
     }
 }
 
@@ -312,9 +314,11 @@ TEST_P(Contract, WrongInputsAreRefused) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_THROW(render(*technique, broken([](AreaLight& light) { light.width_m = nan; })), Error);
     EXPECT_THROW(render(*technique, broken([](AreaLight& light) { light.height_m = -1; })), Error);
-    EXPECT_THROW(render(*technique, broken([](AreaLight& light) { light.worldFromLight.columns[0][0] = 7; })), Error);
-    EXPECT_THROW(render(*technique, broken([](AreaLight& light) { light.worldFromLight.columns[3][0] = nan; })),
+    EXPECT_THROW(render(*technique, broken([](AreaLight& light) { light.worldFromLight.columns[0][0] = 7; })),
                  Error);
+    EXPECT_THROW(
+        render(*technique, broken([](AreaLight& light) { light.worldFromLight.columns[3][0] = nan; })),
+        Error);
     // And works on afterwards.
     expectInRange(render(*technique, scene).visibility);
 }

@@ -27,7 +27,9 @@ std::vector<std::string> includesOf(const fs::path& file) {
     return found;
 }
 
-bool isTest(const fs::path& file) { return file.filename().string().find("_test") != std::string::npos; }
+bool isTest(const fs::path& file) {
+    return file.filename().string().find("_test") != std::string::npos;
+}
 
 /// Sources, headers and shaders under `folder`, without tests.
 std::vector<fs::path> sourcesIn(const std::string& folder) {
@@ -59,7 +61,8 @@ TEST(Layout, NoRoomIncludesAnother) {
         if (!fs::is_directory(root / techniques / room)) continue;  // the catalog knows all rooms
         for (const std::string& included : includesOf(file)) {
             if (!included.starts_with(techniques)) continue;
-            const std::string target = included.substr(techniques.size(), included.find('/', techniques.size()) - techniques.size());
+            const std::string target =
+                included.substr(techniques.size(), included.find('/', techniques.size()) - techniques.size());
             EXPECT_TRUE(target == room || target == "common") << file << " includes " << included;
             EXPECT_TRUE(room != "common" || target == "common") << file << " includes " << included;
         }

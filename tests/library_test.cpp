@@ -27,17 +27,18 @@ Error::Kind kindOfError(Call call) {
 
 TEST(DeviceTest, NeedsACurrentContext) {
     // A thread of its own has none, whatever other tests have made current here.
-    std::thread([] {
-        EXPECT_EQ(kindOfError([] { Device(); }), Error::Kind::noOpenGL);
-    }).join();
+    std::thread([] { EXPECT_EQ(kindOfError([] { Device(); }), Error::Kind::noOpenGL); }).join();
 }
 
-TEST(HeadlessContextTest, UnknownDeviceIsRefused) { EXPECT_THROW(HeadlessContext(1000), NoOpenGLError); }
+TEST(HeadlessContextTest, UnknownDeviceIsRefused) {
+    EXPECT_THROW(HeadlessContext(1000), NoOpenGLError);
+}
 
 TEST(HeadlessContextTest, DevicesAreListed) {
     const std::vector<HeadlessDevice> devices = listHeadlessDevices();
     ASSERT_FALSE(devices.empty());
-    for (const HeadlessDevice& device : devices) EXPECT_TRUE(device.usable || !device.whyNot.empty()) << device.name;
+    for (const HeadlessDevice& device : devices)
+        EXPECT_TRUE(device.usable || !device.whyNot.empty()) << device.name;
 }
 
 TEST_F(LibraryTest, MeshesAreChecked) {
@@ -67,7 +68,8 @@ TEST_F(LibraryTest, MeshesAreChecked) {
 
 TEST_F(LibraryTest, VisibilityBufferSizesAreChecked) {
     EXPECT_EQ(kindOfError([] { VisibilityBuffer(workbench().device(), 0, 1); }), Error::Kind::badArgument);
-    EXPECT_EQ(kindOfError([] { VisibilityBuffer(workbench().device(), 1, 1 << 20); }), Error::Kind::badArgument);
+    EXPECT_EQ(kindOfError([] { VisibilityBuffer(workbench().device(), 1, 1 << 20); }),
+              Error::Kind::badArgument);
 }
 
 TEST_F(LibraryTest, UnknownTechniquesAreRefusedWithTheKnownOnes) {
@@ -84,7 +86,8 @@ TEST_F(LibraryTest, ParametersAreSetFromText) {
     const auto hard = workbench().makeTechnique("hard");
     setParameter(*hard, "map_size", "512");
     for (const char* bad : {"", "many", "512.5", "-1", "99999999999999999999", "512 "}) {
-        EXPECT_EQ(kindOfError([&] { setParameter(*hard, "map_size", bad); }), Error::Kind::badArgument) << bad;
+        EXPECT_EQ(kindOfError([&] { setParameter(*hard, "map_size", bad); }), Error::Kind::badArgument)
+            << bad;
     }
     EXPECT_EQ(kindOfError([&] { setParameter(*hard, "mapsize", "512"); }), Error::Kind::unknownName);
 }
@@ -133,8 +136,8 @@ TEST_F(ConventionTest, AllDepthConventionsAgree) {
                                        .height_px = depth.height_px,
                                        .format = GL_DEPTH_COMPONENT32F,
                                        .label = "host depth"});
-            glTextureSubImage2D(texture.name(), 0, 0, 0, depth.width_px, depth.height_px, GL_DEPTH_COMPONENT, GL_FLOAT,
-                                converted.values.data());
+            glTextureSubImage2D(texture.name(), 0, 0, 0, depth.width_px, depth.height_px, GL_DEPTH_COMPONENT,
+                                GL_FLOAT, converted.values.data());
             inputs.view.clipFromView = toPenumbra(glm::transpose(rows));
             inputs.view.depth = {.range = range, .reversed = reversed};
             inputs.view.depthTexture = texture.name();
@@ -143,8 +146,8 @@ TEST_F(ConventionTest, AllDepthConventionsAgree) {
             for (std::size_t i = 0; i < visibility.values.size(); ++i) {
                 different += visibility.values[i] != expected.values[i];
             }
-            // A depth that is not reversed has few bits far away (the near plane is at 1e-4 of the scene): positions
-            // there are off by centimetres, which shows at the edges of shadows.
+            // A depth that is not reversed has few bits far away (the near plane is at 1e-4 of the scene):
+            // positions there are off by centimetres, which shows at the edges of shadows.
             EXPECT_LE(different, visibility.values.size() * (reversed ? 2 : 40) / 1000)
                 << "reversed " << reversed << ", range " << int(range);
         }
@@ -158,7 +161,8 @@ TEST_F(ConventionTest, NormalsAndReceiverMaskAreOptional) {
     inputs.view.receiverTexture = 0;
     const Image visibility = visibilityOf(inputs);
     std::size_t different = 0;
-    for (std::size_t i = 0; i < visibility.values.size(); ++i) different += visibility.values[i] != expected.values[i];
+    for (std::size_t i = 0; i < visibility.values.size(); ++i)
+        different += visibility.values[i] != expected.values[i];
     // Normals out of the depth are wrong at the outlines of things, one or two pixels wide.
     EXPECT_LE(different, visibility.values.size() * 3 / 100);
 }

@@ -23,10 +23,12 @@ std::optional<int> parseInt(std::string_view text) {
 }  // namespace
 
 void SceneArguments::addSceneTo(CLI::App& command) {
-    command.add_option("SCENE", scene, "a glTF 2.0 file (.gltf, .glb) or the name of a built-in scene")->required();
+    command.add_option("SCENE", scene, "a glTF 2.0 file (.gltf, .glb) or the name of a built-in scene")
+        ->required();
     command.add_option("--lights", lightsFile, "lights from this file instead of SCENE.lights.json");
     command.add_option("--scene", sceneIndex, "which scene of the file, by index");
-    command.add_option("--animation", animation, "which animation plays, by index; -1: none")->capture_default_str();
+    command.add_option("--animation", animation, "which animation plays, by index; -1: none")
+        ->capture_default_str();
 }
 
 void SceneArguments::addTo(CLI::App& command) {
@@ -52,9 +54,11 @@ Scene SceneArguments::open() const {
 PictureSize SceneArguments::pictureSize() const {
     const std::size_t cross = size.find('x');
     const auto width = parseInt(std::string_view(size).substr(0, cross));
-    const auto height = cross == std::string::npos ? std::nullopt : parseInt(std::string_view(size).substr(cross + 1));
+    const auto height =
+        cross == std::string::npos ? std::nullopt : parseInt(std::string_view(size).substr(cross + 1));
     if (!width || !height || *width < 1 || *height < 1) {
-        throw UsageError(fmt::format("--size '{}' is not WIDTHxHEIGHT in pixels, for instance 960x540", size));
+        throw UsageError(
+            fmt::format("--size '{}' is not WIDTHxHEIGHT in pixels, for instance 960x540", size));
     }
     return {*width, *height};
 }
@@ -100,7 +104,8 @@ void requireWritableFolder(const std::filesystem::path& folder, bool create) {
                                       create ? " and cannot be made one" : ""));
     }
     if (access(path.c_str(), W_OK) != 0) {
-        throw OutputError(fmt::format("{}: no permission to write there; name another place with -o", path.string()));
+        throw OutputError(
+            fmt::format("{}: no permission to write there; name another place with -o", path.string()));
     }
 }
 

@@ -36,7 +36,8 @@ struct SceneArguments {
     PictureSize pictureSize() const;
 };
 
-/// "NAME,NAME" or "all" as names, each of which exists. `all` means the library's catalog, without the reference.
+/// "NAME,NAME" or "all" as names, each of which exists. `all` means the library's catalog, without the
+/// reference.
 std::vector<std::string> techniqueNames(const std::string& list);
 
 /// Applies every "KEY=VALUE" to `technique`. Throws UsageError.

@@ -56,12 +56,14 @@ void printJson(const std::vector<Contender>& contenders, const BenchArguments& a
                                    {"results", nlohmann::json::array()}};
     for (const Contender& contender : contenders) {
         nlohmann::ordered_json passes = nlohmann::json::object();
-        for (const PassTime& pass : contender.statistics.passes) passes[std::string(pass.name)] = pass.milliseconds;
+        for (const PassTime& pass : contender.statistics.passes)
+            passes[std::string(pass.name)] = pass.milliseconds;
         const auto [low, high] = std::ranges::minmax(contender.milliseconds);
-        json["results"].push_back({{"technique", contender.name},
-                                   {"ms", {{"median", median(contender.milliseconds)}, {"min", low}, {"max", high}}},
-                                   {"ratio_to_hard", median(contender.ratios)},
-                                   {"passes_ms", std::move(passes)}});
+        json["results"].push_back(
+            {{"technique", contender.name},
+             {"ms", {{"median", median(contender.milliseconds)}, {"min", low}, {"max", high}}},
+             {"ratio_to_hard", median(contender.ratios)},
+             {"passes_ms", std::move(passes)}});
     }
     std::cout << json.dump(2) << "\n";
 }
@@ -80,7 +82,8 @@ void bench(const BenchArguments& arguments) {
     workbench.open(scene);
 
     std::vector<Contender> contenders;
-    for (const std::string& name : names) contenders.push_back({name, workbench.makeTechnique(name), {}, {}, {}});
+    for (const std::string& name : names)
+        contenders.push_back({name, workbench.makeTechnique(name), {}, {}, {}});
     Progress progress("bench");
     constexpr int warmUp = 2;
     for (int round = -warmUp; round < arguments.rounds; ++round) {
@@ -106,7 +109,8 @@ void bench(const BenchArguments& arguments) {
 }  // namespace
 
 void addBench(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("bench", "what techniques cost, as ratios to hard in the same run");
+    CLI::App* command =
+        app.add_subcommand("bench", "what techniques cost, as ratios to hard in the same run");
     auto arguments = std::make_shared<BenchArguments>();
     arguments->scene.addTo(*command);
     command->add_option("-t,--technique", arguments->techniques, "NAME,NAME or all")->capture_default_str();

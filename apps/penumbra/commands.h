@@ -5,8 +5,8 @@
 
 namespace penumbra::studio {
 
-/// Each adds its subcommand, which runs while the command line is parsed and throws what went wrong (see main.cpp).
-/// `commandLine` is what the user typed, for the metadata of pictures.
+/// Each adds its subcommand, which runs while the command line is parsed and throws what went wrong (see
+/// main.cpp). `commandLine` is what the user typed, for the metadata of pictures.
 void addRender(CLI::App& app, const std::string& commandLine);
 void addCompare(CLI::App& app, const std::string& commandLine);
 void addBench(CLI::App& app);

@@ -16,9 +16,12 @@ std::string describeShape(const AreaLight& shape) {
             return fmt::format("RectLight {:g} x {:g} m{}", shape.width_m, shape.height_m,
                                shape.twoSided ? ", two-sided" : "");
         case LightShape::disk:
-            return fmt::format("DiskLight of radius {:g} m{}", shape.radius_m, shape.twoSided ? ", two-sided" : "");
-        case LightShape::sphere: return fmt::format("SphereLight of radius {:g} m", shape.radius_m);
-        case LightShape::distant: return fmt::format("DistantLight of {:g} degrees", shape.angle_rad * degrees);
+            return fmt::format("DiskLight of radius {:g} m{}", shape.radius_m,
+                               shape.twoSided ? ", two-sided" : "");
+        case LightShape::sphere:
+            return fmt::format("SphereLight of radius {:g} m", shape.radius_m);
+        case LightShape::distant:
+            return fmt::format("DistantLight of {:g} degrees", shape.angle_rad * degrees);
     }
     return {};
 }
@@ -32,10 +35,11 @@ std::string describeEmission(const Emission& emission) {
 
 std::string describePlace(const AreaLight& shape) {
     const auto& columns = shape.worldFromLight.columns;
-    const std::string direction = fmt::format("towards ({:.3g}, {:.3g}, {:.3g})", -columns[2][0], -columns[2][1],
-                                              -columns[2][2]);
+    const std::string direction =
+        fmt::format("towards ({:.3g}, {:.3g}, {:.3g})", -columns[2][0], -columns[2][1], -columns[2][2]);
     if (shape.shape == LightShape::distant) return direction;
-    const std::string place = fmt::format("at ({:.3g}, {:.3g}, {:.3g})", columns[3][0], columns[3][1], columns[3][2]);
+    const std::string place =
+        fmt::format("at ({:.3g}, {:.3g}, {:.3g})", columns[3][0], columns[3][1], columns[3][2]);
     return shape.shape == LightShape::sphere ? place : place + " " + direction;
 }
 
@@ -70,13 +74,14 @@ void printInfo(const SceneArguments& arguments) {
         fmt::print("bounds      none\n");
     } else {
         const glm::vec3 &low = moment.bounds.min, &high = moment.bounds.max;
-        fmt::print("bounds      ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m\n", low.x, low.y, low.z, high.x, high.y,
-                   high.z);
+        fmt::print("bounds      ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m\n", low.x, low.y, low.z, high.x,
+                   high.y, high.z);
     }
-    fmt::print("surfaces    {}: {} boundary edges, {} non-manifold edges, {} with disagreeing sides, {} degenerate "
-               "triangles\n",
-               topology.closed() ? "closed" : "open", topology.boundaryEdges, topology.nonManifoldEdges,
-               topology.flippedEdges, topology.degenerateTriangles);
+    fmt::print(
+        "surfaces    {}: {} boundary edges, {} non-manifold edges, {} with disagreeing sides, {} degenerate "
+        "triangles\n",
+        topology.closed() ? "closed" : "open", topology.boundaryEdges, topology.nonManifoldEdges,
+        topology.flippedEdges, topology.degenerateTriangles);
     fmt::print("materials   {} ({} textures)\n", scene.materials.size(), scene.textures.size());
     for (const Light& light : moment.lights) {
         fmt::print("light       {}: {} {}, {}{}\n", light.name, describeShape(light.shape),
@@ -93,7 +98,8 @@ void printInfo(const SceneArguments& arguments) {
 }  // namespace
 
 void addInfo(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("info", "what a scene holds: triangles, bounds, lights, animations, warnings");
+    CLI::App* command =
+        app.add_subcommand("info", "what a scene holds: triangles, bounds, lights, animations, warnings");
     auto arguments = std::make_shared<SceneArguments>();
     arguments->addSceneTo(*command);
     command->callback([arguments] { printInfo(*arguments); });

@@ -32,7 +32,8 @@ std::string joinArguments(int argc, char** argv) {
     std::string line = "penumbra";
     for (int i = 1; i < argc; ++i) {
         const std::string argument = argv[i];
-        const bool plain = !argument.empty() && argument.find_first_of(" \t'\"$\\*?;&|<>()") == std::string::npos;
+        const bool plain =
+            !argument.empty() && argument.find_first_of(" \t'\"$\\*?;&|<>()") == std::string::npos;
         line += plain ? " " + argument : " '" + argument + "'";
     }
     return line;
@@ -41,10 +42,12 @@ std::string joinArguments(int argc, char** argv) {
 int exitCodeOf(penumbra::Error::Kind kind) {
     switch (kind) {
         case penumbra::Error::Kind::badArgument:
-        case penumbra::Error::Kind::unknownName: return usage;
+        case penumbra::Error::Kind::unknownName:
+            return usage;
         case penumbra::Error::Kind::noOpenGL:
         case penumbra::Error::Kind::shader:
-        case penumbra::Error::Kind::outOfMemory: return noOpenGL;
+        case penumbra::Error::Kind::outOfMemory:
+            return noOpenGL;
     }
     return failed;
 }
@@ -62,10 +65,13 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION);
     app.require_subcommand(1);
     app.fallthrough();
-    app.add_flag_callback("-v,--verbose", [] { spdlog::set_level(spdlog::level::info); }, "say more");
-    app.add_flag_callback("-q,--quiet", [] { spdlog::set_level(spdlog::level::err); }, "say errors alone");
-    app.footer("Exit codes: 0 done, 1 a requested threshold failed, 2 usage, 3 input missing or invalid,\n"
-               "4 no usable OpenGL, 5 output not writable.");
+    app.add_flag_callback(
+        "-v,--verbose", [] { spdlog::set_level(spdlog::level::info); }, "say more");
+    app.add_flag_callback(
+        "-q,--quiet", [] { spdlog::set_level(spdlog::level::err); }, "say errors alone");
+    app.footer(
+        "Exit codes: 0 done, 1 a requested threshold failed, 2 usage, 3 input missing or invalid,\n"
+        "4 no usable OpenGL, 5 output not writable.");
     const std::string commandLine = joinArguments(argc, argv);
     studio::addRender(app, commandLine);
     studio::addCompare(app, commandLine);

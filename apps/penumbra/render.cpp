@@ -36,7 +36,8 @@ FrameRange parseFrames(const std::string& text) {
     bool good = number(range.first) && skip('-') && number(range.last);
     if (good && at != end) good = skip('x') && number(range.step);
     if (!good || at != end || range.step < 1 || range.last < range.first) {
-        throw UsageError(fmt::format("--frames '{}' is not FIRST-LAST or FIRST-LASTxSTEP, for instance 1-100x2", text));
+        throw UsageError(
+            fmt::format("--frames '{}' is not FIRST-LAST or FIRST-LASTxSTEP, for instance 1-100x2", text));
     }
     return range;
 }
@@ -90,7 +91,8 @@ void writeVisibility(const fs::path& path, const TechniqueResult& result, const 
     ExrPicture picture{result.display.width_px, result.display.height_px, {}, metadata};
     for (const LightResult& light : result.lights) {
         const std::string name = result.lights.size() == 1 ? "V" : light.light + ".V";
-        for (ExrChannel& channel : channelsOf(light.visibility, name)) picture.channels.push_back(std::move(channel));
+        for (ExrChannel& channel : channelsOf(light.visibility, name))
+            picture.channels.push_back(std::move(channel));
     }
     if (picture.channels.empty()) {
         picture.channels.push_back({"V", std::vector<float>(result.display.pixelCount(), 1.0f)});
@@ -99,9 +101,11 @@ void writeVisibility(const fs::path& path, const TechniqueResult& result, const 
 }
 
 nlohmann::ordered_json statisticsJson(const Statistics& statistics) {
-    nlohmann::ordered_json json = {{"counts", nlohmann::json::object()}, {"passes_ms", nlohmann::json::object()}};
+    nlohmann::ordered_json json = {{"counts", nlohmann::json::object()},
+                                   {"passes_ms", nlohmann::json::object()}};
     for (const Statistic& count : statistics.counts) json["counts"][std::string(count.name)] = count.value;
-    for (const PassTime& pass : statistics.passes) json["passes_ms"][std::string(pass.name)] = pass.milliseconds;
+    for (const PassTime& pass : statistics.passes)
+        json["passes_ms"][std::string(pass.name)] = pass.milliseconds;
     return json;
 }
 
@@ -128,7 +132,8 @@ class RenderCommand {
             const double done = double(frame - range.first) / (range.last - range.first + range.step);
             if (auto* reference = dynamic_cast<ReferenceTechnique*>(technique.get())) {
                 const double share = double(range.step) / (range.last - range.first + range.step);
-                reference->setProgress([&, done, share](double fraction) { progress.update(done + share * fraction); });
+                reference->setProgress(
+                    [&, done, share](double fraction) { progress.update(done + share * fraction); });
             }
             progress.update(done);
             renderFrame(workbench, *technique, scene, frame, size, outputs);
@@ -147,10 +152,12 @@ class RenderCommand {
         }
         if (!arguments_.output.empty()) formatOf(arguments_.output);
         if (!arguments_.visibility.empty() && formatOf(arguments_.visibility) != PictureFormat::exr) {
-            throw UsageError(fmt::format("--visibility '{}': visibility is written as .exr", arguments_.visibility));
+            throw UsageError(
+                fmt::format("--visibility '{}': visibility is written as .exr", arguments_.visibility));
         }
         if (arguments_.output.empty() && arguments_.visibility.empty() && !arguments_.json) {
-            throw UsageError("nothing to do: ask for a picture (-o), the visibility (--visibility) or --json");
+            throw UsageError(
+                "nothing to do: ask for a picture (-o), the visibility (--visibility) or --json");
         }
         if (!(arguments_.framesPerSecond > 0)) throw UsageError("--fps must be positive");
     }
@@ -168,8 +175,8 @@ class RenderCommand {
                (outputs.visibility.empty() || fs::exists(outputs.visibility));
     }
 
-    void renderFrame(Workbench& workbench, Technique& technique, const Scene& scene, int frame, PictureSize size,
-                     const Outputs& outputs) {
+    void renderFrame(Workbench& workbench, Technique& technique, const Scene& scene, int frame,
+                     PictureSize size, const Outputs& outputs) {
         const double time_s =
             arguments_.frames.empty() ? arguments_.scene.time_s : frame / arguments_.framesPerSecond;
         const SceneMoment moment = scene.at(time_s);
@@ -184,7 +191,8 @@ class RenderCommand {
                                        {"time_s", time_s},
                                        {"lights", nlohmann::json::array()}};
         for (const LightResult& light : result.lights) {
-            json["lights"].push_back({{"light", light.light}, {"statistics", statisticsJson(light.statistics)}});
+            json["lights"].push_back(
+                {{"light", light.light}, {"statistics", statisticsJson(light.statistics)}});
         }
         if (arguments_.frames.empty()) {
             report_ = std::move(json);
@@ -206,11 +214,15 @@ void addRender(CLI::App& app, const std::string& commandLine) {
     arguments->scene.addTo(*command);
     command->add_option("-t,--technique", arguments->technique, "see 'penumbra list techniques'")
         ->capture_default_str();
-    command->add_option("-o,--output", arguments->output, "the picture: .png (as shown) or .exr (linear, nits)");
-    command->add_option("--visibility", arguments->visibility, "the visibility buffer of each light, as .exr");
-    command->add_option("--set", arguments->settings, "KEY=VALUE: a parameter of the technique; may be repeated")
+    command->add_option("-o,--output", arguments->output,
+                        "the picture: .png (as shown) or .exr (linear, nits)");
+    command->add_option("--visibility", arguments->visibility,
+                        "the visibility buffer of each light, as .exr");
+    command
+        ->add_option("--set", arguments->settings, "KEY=VALUE: a parameter of the technique; may be repeated")
         ->take_all();
-    command->add_option("--frames", arguments->frames, "A-B or A-BxSTEP: an animation, into numbered files (#### in -o)");
+    command->add_option("--frames", arguments->frames,
+                        "A-B or A-BxSTEP: an animation, into numbered files (#### in -o)");
     command->add_option("--fps", arguments->framesPerSecond, "frames for each second of the animation")
         ->capture_default_str();
     command->add_flag("--skip-existing", arguments->skipExisting, "leave out frames whose files are there");

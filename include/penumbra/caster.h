@@ -17,8 +17,8 @@ struct Box {
     Vec3 max{-1, -1, -1};
 };
 
-/// A triangle mesh on the device, and its copy on the CPU. Move-only; frees its buffers when destroyed, for which the
-/// context it was made in must be current.
+/// A triangle mesh on the device, and its copy on the CPU. Move-only; frees its buffers when destroyed, for
+/// which the context it was made in must be current.
 class Mesh {
   public:
     /// What a mesh is made of. The spans are copied.
@@ -28,26 +28,28 @@ class Mesh {
         std::span<const Vec2> uvs;               ///< one a position, or empty; needed by an `AlphaMask` only
     };
 
-    /// Uploads `source`. Throws Error::Kind::badArgument if an index is out of range, a position is not finite, the
-    /// number of indices is no multiple of three, or the number of uvs is neither zero nor that of the positions.
-    /// An empty mesh is legal and casts nothing.
+    /// Uploads `source`. Throws Error::Kind::badArgument if an index is out of range, a position is not
+    /// finite, the number of indices is no multiple of three, or the number of uvs is neither zero nor that
+    /// of the positions. An empty mesh is legal and casts nothing.
     Mesh(Device& device, const Source& source);
     Mesh(Mesh&&) noexcept;
     Mesh& operator=(Mesh&&) noexcept;
     ~Mesh();
 
-    /// Replaces the positions, keeping the triangles: skinning, morphing, cloth. As many as at first, all finite.
+    /// Replaces the positions, keeping the triangles: skinning, morphing, cloth. As many as at first, all
+    /// finite.
     void deform(std::span<const Vec3> positions);
 
     std::span<const Vec3> positions() const;
     std::span<const std::uint32_t> indices() const;
     std::span<const Vec2> uvs() const;
     const Box& bounds() const;
-    /// Counts calls of `deform`, so that whoever caches something derived from the positions knows when it is stale.
+    /// Counts calls of `deform`, so that whoever caches something derived from the positions knows when it is
+    /// stale.
     std::uint64_t revision() const;
 
-    /// Names of GL buffers that a host may draw from, owned by the mesh: tightly packed 32-bit floats (three a
-    /// position, two a uv; the uv buffer is 0 without uvs) and 32-bit unsigned indices.
+    /// Names of GL buffers that a host may draw from, owned by the mesh: tightly packed 32-bit floats (three
+    /// a position, two a uv; the uv buffer is 0 without uvs) and 32-bit unsigned indices.
     std::uint32_t positionBuffer() const;
     std::uint32_t uvBuffer() const;
     std::uint32_t indexBuffer() const;
@@ -59,9 +61,10 @@ class Mesh {
 
 /// A caster's holes: fragments whose alpha is below the cutoff let light through.
 struct AlphaMask {
-    std::uint32_t texture = 0;  ///< GL_TEXTURE_2D, borrowed, sampled with its own filter and wrapping; 0: no mask
-    float factor = 1;           ///< multiplies the texture's alpha
-    float cutoff = 0.5f;        ///< alpha >= cutoff blocks
+    std::uint32_t texture =
+        0;                ///< GL_TEXTURE_2D, borrowed, sampled with its own filter and wrapping; 0: no mask
+    float factor = 1;     ///< multiplies the texture's alpha
+    float cutoff = 0.5f;  ///< alpha >= cutoff blocks
 };
 
 /// An object in the scene. Both sides of every triangle block light.

@@ -34,12 +34,14 @@ struct DeviceOptions {
     /// Without it nothing is logged.
     std::function<void(LogLevel, std::string_view)> log;
 
-    /// Where to read shaders from instead of the embedded copies: the `src` folder of a source tree. Empty: embedded.
+    /// Where to read shaders from instead of the embedded copies: the `src` folder of a source tree. Empty:
+    /// embedded.
     std::filesystem::path shaderSourceDirectory;
 };
 
-/// Penumbra on one OpenGL 4.5 context, which must be current on the calling thread whenever a call of the library is
-/// made on this device or on what was made with it. Several devices, each on its own context, may live in a process.
+/// Penumbra on one OpenGL 4.5 context, which must be current on the calling thread whenever a call of the
+/// library is made on this device or on what was made with it. Several devices, each on its own context, may
+/// live in a process.
 class Device {
   public:
     /// Throws Error::Kind::noOpenGL unless an OpenGL 4.5 core (or compatibility) context is current.
@@ -53,11 +55,12 @@ class Device {
     bool isSoftware() const;              ///< a CPU rasteriser such as llvmpipe: GPU timers mean CPU time
     int maxTextureSize_px() const;
 
-    /// Number of driver messages of high severity, or of type error or undefined behaviour, since the device was made.
+    /// Number of driver messages of high severity, or of type error or undefined behaviour, since the device
+    /// was made.
     int severeMessageCount() const;
 
-    /// Reads all shaders again (see DeviceOptions::shaderSourceDirectory). A program that no longer compiles keeps its
-    /// last good version and throws Error::Kind::shader; the others are not affected.
+    /// Reads all shaders again (see DeviceOptions::shaderSourceDirectory). A program that no longer compiles
+    /// keeps its last good version and throws Error::Kind::shader; the others are not affected.
     void reloadShaders();
 
     struct Internals;

@@ -21,8 +21,8 @@ enum class LightShape {
 struct AreaLight {
     LightShape shape = LightShape::rect;
 
-    /// Rotation and translation of the light; its columns must be orthonormal (sizes are given below, never by
-    /// scale). The translation is ignored by distant lights.
+    /// Rotation and translation of the light; its columns must be orthonormal (sizes are given below, never
+    /// by scale). The translation is ignored by distant lights.
     Mat4 worldFromLight;
 
     float width_m = 0;    ///< rect, >= 0
@@ -33,9 +33,9 @@ struct AreaLight {
     /// Rect and disk: emits along +Z too. Spheres and distant lights have no back.
     bool twoSided = false;
 
-    /// Rect only: name of a GL_TEXTURE_2D in the current context whose RGB is the radiance over the light, or 0.
-    /// Borrowed. Texture row 0 lies at the light's -Y edge, column 0 at its -X edge. A textured light's visibility
-    /// has three channels, each weighting the light's area by that channel's radiance.
+    /// Rect only: name of a GL_TEXTURE_2D in the current context whose RGB is the radiance over the light, or
+    /// 0. Borrowed. Texture row 0 lies at the light's -Y edge, column 0 at its -X edge. A textured light's
+    /// visibility has three channels, each weighting the light's area by that channel's radiance.
     std::uint32_t radianceTexture = 0;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A technique describes each of its parameters once; flags, sliders, JSON and the reference page are visitors.
+// A technique describes each of its parameters once; flags, sliders, JSON and the reference page are
+// visitors.
 #pragma once
 
 #include <limits>
@@ -36,8 +37,8 @@ class ParameterVisitor {
 
 class Technique;
 
-/// Sets one parameter from text. Throws Error::Kind::unknownName with the nearest names, or Error::Kind::badArgument
-/// with the legal range.
+/// Sets one parameter from text. Throws Error::Kind::unknownName with the nearest names, or
+/// Error::Kind::badArgument with the legal range.
 void setParameter(Technique& technique, std::string_view name, std::string_view value);
 
 }  // namespace penumbra

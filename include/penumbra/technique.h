@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one interface. Every technique answers one question: for each pixel, what fraction of this light does the surface
-// there see?
+// The one interface. Every technique answers one question: for each pixel, what fraction of this light does
+// the surface there see?
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,10 @@
 
 namespace penumbra {
 
-/// The answer: visibility in [0, 1], 1 where the whole light is seen or the pixel shows no surface, 0 in umbra. The
-/// fraction is of the light's emitting area above the surface's horizon (a distant light's and a sphere's: of the solid
-/// angle that they show), with no cosine and no distance weight. Where none of the light is above the horizon it is 0.
+/// The answer: visibility in [0, 1], 1 where the whole light is seen or the pixel shows no surface, 0 in
+/// umbra. The fraction is of the light's emitting area above the surface's horizon (a distant light's and a
+/// sphere's: of the solid angle that they show), with no cosine and no distance weight. Where none of the
+/// light is above the horizon it is 0.
 class VisibilityBuffer {
   public:
     /// Makes its own texture: GL_R32F, or GL_RGBA16F (alpha unused) for a textured light. Both sizes >= 1.
@@ -85,7 +86,8 @@ class Technique {
     /// Visits every parameter, in the order in which a person wants to read them.
     virtual void describe(ParameterVisitor& visitor) = 0;
 
-    /// Fills `out`, which has the view's size and is colored where the light is textured. Equal inputs give equal bits.
+    /// Fills `out`, which has the view's size and is colored where the light is textured. Equal inputs give
+    /// equal bits.
     virtual void render(const ShadowInputs& inputs, VisibilityBuffer& out) = 0;
 
     /// Visits the intermediate buffers of the last render.
@@ -97,15 +99,16 @@ class Technique {
 struct TechniqueInfo {
     std::string_view name;     ///< as on the command line: "hard"
     std::string_view summary;  ///< one line
-    /// The root mean square error of visibility that it promises at most in the penumbra of a straight edge, where the
-    /// truth is known in closed form. 0.29 is what a hard edge makes of a linear ramp.
+    /// The root mean square error of visibility that it promises at most in the penumbra of a straight edge,
+    /// where the truth is known in closed form. 0.29 is what a hard edge makes of a linear ramp.
     float rampRmse;
 };
 
 /// All techniques of the catalog, in the order in which they are listed.
 std::span<const TechniqueInfo> techniqueCatalog();
 
-/// Makes a technique on `device`, which must outlive it. Throws Error::Kind::unknownName, listing the names there are.
+/// Makes a technique on `device`, which must outlive it. Throws Error::Kind::unknownName, listing the names
+/// there are.
 std::unique_ptr<Technique> makeTechnique(Device& device, std::string_view name);
 
 }  // namespace penumbra

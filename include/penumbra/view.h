@@ -14,8 +14,8 @@ struct DepthConvention {
         minusOneToOne,  ///< clip-space z/w in [-1, 1], stored as 0.5 * z/w + 0.5 (OpenGL's default)
     };
     Range range = Range::zeroToOne;
-    /// True: larger is nearer and 0 is background. False: smaller is nearer and 1 is background. Whether the far
-    /// plane is finite or infinite follows from `View::clipFromView` and need not be said.
+    /// True: larger is nearer and 0 is background. False: smaller is nearer and 1 is background. Whether the
+    /// far plane is finite or infinite follows from `View::clipFromView` and need not be said.
     bool reversed = true;
 };
 
@@ -31,13 +31,13 @@ struct View {
     std::uint32_t depthTexture = 0;
     DepthConvention depth;
 
-    /// GL_TEXTURE_2D, borrowed, optional (0: normals are derived from the depth). RGB is the *geometric* world-space
-    /// normal of the surface, unit length, on the side that the camera sees. Interpolated shading normals make
-    /// surfaces shadow themselves near the terminator.
+    /// GL_TEXTURE_2D, borrowed, optional (0: normals are derived from the depth). RGB is the *geometric*
+    /// world-space normal of the surface, unit length, on the side that the camera sees. Interpolated shading
+    /// normals make surfaces shadow themselves near the terminator.
     std::uint32_t normalTexture = 0;
 
-    /// GL_TEXTURE_2D, borrowed, optional (0: everything receives). A pixel whose red channel is below 0.5 belongs to
-    /// a surface that receives no shadow: its visibility is 1.
+    /// GL_TEXTURE_2D, borrowed, optional (0: everything receives). A pixel whose red channel is below 0.5
+    /// belongs to a surface that receives no shadow: its visibility is 1.
     std::uint32_t receiverTexture = 0;
 };
 

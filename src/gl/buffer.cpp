@@ -14,8 +14,10 @@ GLuint createBuffer() {
 
 }  // namespace
 
-Buffer::Buffer(std::size_t size_bytes, std::string_view text) : handle_(createBuffer()), size_bytes_(size_bytes) {
-    glNamedBufferStorage(name(), GLsizeiptr(std::max<std::size_t>(size_bytes, 16)), nullptr, GL_DYNAMIC_STORAGE_BIT);
+Buffer::Buffer(std::size_t size_bytes, std::string_view text)
+    : handle_(createBuffer()), size_bytes_(size_bytes) {
+    glNamedBufferStorage(name(), GLsizeiptr(std::max<std::size_t>(size_bytes, 16)), nullptr,
+                         GL_DYNAMIC_STORAGE_BIT);
     label(GL_BUFFER, name(), text);
     checkAllocated(text);
 }

@@ -9,7 +9,9 @@
 
 namespace penumbra::gl {
 
-inline void deleteBuffer(GLuint name) { glDeleteBuffers(1, &name); }
+inline void deleteBuffer(GLuint name) {
+    glDeleteBuffers(1, &name);
+}
 
 /// A buffer of fixed size that the CPU may write.
 class Buffer {
@@ -55,9 +57,7 @@ class StorageArray {
         }
         if (!values.empty()) buffer_.write(std::as_bytes(values));
     }
-    void bind(GLuint binding) const {
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer_.name());
-    }
+    void bind(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer_.name()); }
 
   private:
     std::string_view label_;

@@ -6,7 +6,8 @@
 namespace penumbra::gl {
 namespace {
 
-void onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text, const void* user) {
+void onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text,
+               const void* user) {
     static_cast<DebugLog*>(const_cast<void*>(user))->receive(type, severity, {text, std::size_t(length)});
 }
 

@@ -9,8 +9,8 @@
 
 namespace penumbra::gl {
 
-/// Passes the driver's KHR_debug messages on and counts the severe ones. Installs itself only where the host has no
-/// callback of its own; stays at its address while it is installed.
+/// Passes the driver's KHR_debug messages on and counts the severe ones. Installs itself only where the host
+/// has no callback of its own; stays at its address while it is installed.
 class DebugLog {
   public:
     explicit DebugLog(std::function<void(LogLevel, std::string_view)> log);

@@ -18,7 +18,8 @@ GLuint createFramebuffer() {
 
 }  // namespace
 
-Framebuffer::Framebuffer(std::initializer_list<const Texture*> colors, const Texture* depth, std::string_view text)
+Framebuffer::Framebuffer(std::initializer_list<const Texture*> colors, const Texture* depth,
+                         std::string_view text)
     : handle_(createFramebuffer()) {
     std::vector<GLenum> drawBuffers;
     for (const Texture* color : colors) {

@@ -22,6 +22,8 @@ DebugGroup::DebugGroup(std::string_view name) {
     glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, GLsizei(name.size()), name.data());
 }
 
-DebugGroup::~DebugGroup() { glPopDebugGroup(); }
+DebugGroup::~DebugGroup() {
+    glPopDebugGroup();
+}
 
 }  // namespace penumbra::gl

@@ -54,7 +54,8 @@ TEST_F(GlTest, ProgramsIncludeFiles) {
 
 TEST_F(GlTest, ShaderErrorsNameFileAndLine) {
     constexpr std::array<EmbeddedShader, 2> shaders = {
-        EmbeddedShader{"double.comp.glsl", doubling}, {"factor.glsl", "// fine\nconst float factor = nonsense;\n"}};
+        EmbeddedShader{"double.comp.glsl", doubling},
+        {"factor.glsl", "// fine\nconst float factor = nonsense;\n"}};
     ShaderLibrary library = libraryOf(shaders);
     try {
         Program(library, {"double.comp.glsl"});
@@ -110,8 +111,9 @@ TEST_F(ReloadTest, TakesNewSourcesAndKeepsTheLastGoodProgram) {
 }
 
 TEST_F(GlTest, ImpossibleTexturesAreRefused) {
-    EXPECT_THROW(Texture({.width_px = 16384, .height_px = 16384, .layers = 2048, .format = GL_RGBA32F, .label = "t"}),
-                 Error);
+    EXPECT_THROW(
+        Texture({.width_px = 16384, .height_px = 16384, .layers = 2048, .format = GL_RGBA32F, .label = "t"}),
+        Error);
     // And possible ones are still made.
     EXPECT_NE(Texture({.width_px = 16, .height_px = 16, .format = GL_RGBA32F, .label = "t"}).name(), 0u);
 }

@@ -35,7 +35,9 @@ PassTimers::Scope::Scope(PassTimers& timers, std::string_view name) : group_(nam
     end_ = pair.end.name();
 }
 
-PassTimers::Scope::~Scope() { glQueryCounter(end_, GL_TIMESTAMP); }
+PassTimers::Scope::~Scope() {
+    glQueryCounter(end_, GL_TIMESTAMP);
+}
 
 std::vector<PassTimers::Result> PassTimers::latest() const {
     std::vector<Result> results;

@@ -10,7 +10,9 @@
 
 namespace penumbra::gl {
 
-inline void deleteQuery(GLuint name) { glDeleteQueries(1, &name); }
+inline void deleteQuery(GLuint name) {
+    glDeleteQueries(1, &name);
+}
 
 /// Device time of named passes, read some frames later so that nothing waits.
 class PassTimers {

@@ -10,7 +10,9 @@
 namespace penumbra::gl {
 namespace {
 
-void deleteShader(GLuint name) { glDeleteShader(name); }
+void deleteShader(GLuint name) {
+    glDeleteShader(name);
+}
 
 GLenum stageOf(std::string_view file) {
     if (file.ends_with(".vert.glsl")) return GL_VERTEX_SHADER;
@@ -29,7 +31,8 @@ std::string withFileNames(const std::string& log, const std::vector<std::string>
         const std::size_t line = std::stoul((*it)[2]);
         const std::size_t file = std::min(line / ShaderLibrary::Source::linesPerFile, files.size() - 1);
         text.append(last, (*it)[0].first);
-        text += (*it)[1].str() + files[file] + ":" + std::to_string(line % ShaderLibrary::Source::linesPerFile);
+        text +=
+            (*it)[1].str() + files[file] + ":" + std::to_string(line % ShaderLibrary::Source::linesPerFile);
         last = (*it)[0].second;
     }
     return text.append(last, log.cend());

@@ -12,7 +12,9 @@ namespace penumbra::gl {
 
 class ShaderLibrary;
 
-inline void deleteProgram(GLuint name) { glDeleteProgram(name); }
+inline void deleteProgram(GLuint name) {
+    glDeleteProgram(name);
+}
 
 /// What a program is made of, kept so that it can be made again.
 struct ProgramState {
@@ -28,7 +30,8 @@ struct ProgramState {
 class Program {
   public:
     Program() = default;
-    /// `files` are paths from the repository's root. Throws Error::Kind::shader; its message names file and line.
+    /// `files` are paths from the repository's root. Throws Error::Kind::shader; its message names file and
+    /// line.
     Program(ShaderLibrary& library, std::vector<std::string> files, std::vector<std::string> defines = {});
 
     void use() const { glUseProgram(name()); }

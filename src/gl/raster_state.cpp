@@ -4,7 +4,9 @@
 namespace penumbra::gl {
 namespace {
 
-void enable(GLenum capability, bool on) { on ? glEnable(capability) : glDisable(capability); }
+void enable(GLenum capability, bool on) {
+    on ? glEnable(capability) : glDisable(capability);
+}
 
 }  // namespace
 
@@ -29,9 +31,10 @@ void beginPass(GLuint framebuffer, const RasterState& state) {
         glBlendFunc(state.blendSource, state.blendDestination);
     }
 
-    for (const GLenum unused : {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_RASTERIZER_DISCARD, GL_POLYGON_OFFSET_FILL,
-                                GL_COLOR_LOGIC_OP, GL_FRAMEBUFFER_SRGB, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_MASK,
-                                GL_PRIMITIVE_RESTART, GL_PRIMITIVE_RESTART_FIXED_INDEX}) {
+    for (const GLenum unused :
+         {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_RASTERIZER_DISCARD, GL_POLYGON_OFFSET_FILL, GL_COLOR_LOGIC_OP,
+          GL_FRAMEBUFFER_SRGB, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_MASK, GL_PRIMITIVE_RESTART,
+          GL_PRIMITIVE_RESTART_FIXED_INDEX}) {
         glDisable(unused);
     }
 }

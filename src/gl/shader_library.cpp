@@ -40,18 +40,22 @@ std::string ShaderLibrary::read(std::string_view path) const {
     throw Error(Error::Kind::shader, "shader file '" + std::string(path) + "' not found");
 }
 
-ShaderLibrary::Source ShaderLibrary::expand(std::string_view path, std::span<const std::string> defines) const {
+ShaderLibrary::Source ShaderLibrary::expand(std::string_view path,
+                                            std::span<const std::string> defines) const {
     Source source;
     expandInto(source, path, defines);
     return source;
 }
 
-void ShaderLibrary::expandInto(Source& source, std::string_view path, std::span<const std::string> defines) const {
+void ShaderLibrary::expandInto(Source& source, std::string_view path,
+                               std::span<const std::string> defines) const {
     if (std::ranges::find(source.files, path) != source.files.end()) return;
     const int firstLine = int(source.files.size()) * Source::linesPerFile;
     source.files.emplace_back(path);
 
-    const auto continueAt = [&](int line) { source.text += "#line " + std::to_string(firstLine + line) + "\n"; };
+    const auto continueAt = [&](int line) {
+        source.text += "#line " + std::to_string(firstLine + line) + "\n";
+    };
     std::istringstream lines(read(path));
     std::string line;
     if (firstLine > 0) continueAt(1);

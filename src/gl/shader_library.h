@@ -27,9 +27,9 @@ class ShaderLibrary {
     /// Adds a target's files. Their storage must outlive the library (they are in the binary).
     void add(std::span<const EmbeddedShader> shaders);
 
-    /// A file with all its `#include "path/from/root"` expanded once each. Its `#line` directives number the lines of
-    /// files[i] from i * linesPerFile: the source-string number, which is meant for this, is 0 in Mesa's messages
-    /// whatever one says.
+    /// A file with all its `#include "path/from/root"` expanded once each. Its `#line` directives number the
+    /// lines of files[i] from i * linesPerFile: the source-string number, which is meant for this, is 0 in
+    /// Mesa's messages whatever one says.
     struct Source {
         static constexpr int linesPerFile = 100000;
         std::string text;
@@ -38,8 +38,8 @@ class ShaderLibrary {
     /// `defines` are names, or "NAME value". Throws Error::Kind::shader if a file is missing.
     Source expand(std::string_view path, std::span<const std::string> defines) const;
 
-    /// Compiles every living program again. One that fails keeps its last good version; their messages are thrown
-    /// together as Error::Kind::shader.
+    /// Compiles every living program again. One that fails keeps its last good version; their messages are
+    /// thrown together as Error::Kind::shader.
     void reload();
 
     void track(const std::shared_ptr<ProgramState>& program);

@@ -7,7 +7,9 @@
 
 namespace penumbra::gl {
 
-inline void deleteTexture(GLuint name) { glDeleteTextures(1, &name); }
+inline void deleteTexture(GLuint name) {
+    glDeleteTextures(1, &name);
+}
 
 struct TextureSpec {
     int width_px = 1;

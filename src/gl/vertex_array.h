@@ -5,7 +5,9 @@
 
 namespace penumbra::gl {
 
-inline void deleteVertexArray(GLuint name) { glDeleteVertexArrays(1, &name); }
+inline void deleteVertexArray(GLuint name) {
+    glDeleteVertexArrays(1, &name);
+}
 using VertexArrayHandle = Handle<deleteVertexArray>;
 
 /// A vertex array whose attribute i, read from binding i, has `componentCounts[i]` floats.

@@ -37,7 +37,7 @@ std::vector<Candidate> candidates() {
                                    : nullptr;
             const bool software = contains(extensions, "EGL_MESA_device_software");
             found.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr),
-                             software      ? "EGL software device"
+                             software          ? "EGL software device"
                              : file != nullptr ? std::string("EGL device ") + file
                                                : "EGL device",
                              software});
@@ -45,8 +45,9 @@ std::vector<Candidate> candidates() {
         std::ranges::stable_sort(found, {}, &Candidate::software);
     }
     if (contains(client, "EGL_MESA_platform_surfaceless")) {
-        found.push_back({eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
-                         "Mesa surfaceless", true});
+        found.push_back(
+            {eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
+             "Mesa surfaceless", true});
     }
     return found;
 }
@@ -62,17 +63,24 @@ EGLContext makeContext(EGLDisplay display, std::string& whyNot) {
         whyNot = "its driver has no desktop OpenGL";
         return EGL_NO_CONTEXT;
     }
-    constexpr std::array<EGLint, 5> anyConfig = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    constexpr std::array<EGLint, 5> anyConfig = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
+                                                 EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
     eglChooseConfig(display, anyConfig.data(), &config, 1, &count);
-    constexpr std::array<EGLint, 13> attributes = {EGL_CONTEXT_MAJOR_VERSION, 4,
-                                                   EGL_CONTEXT_MINOR_VERSION, 5,
-                                                   EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                                   EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE,
-                                                   EGL_CONTEXT_OPENGL_ROBUST_ACCESS, EGL_TRUE,
+    constexpr std::array<EGLint, 13> attributes = {EGL_CONTEXT_MAJOR_VERSION,
+                                                   4,
+                                                   EGL_CONTEXT_MINOR_VERSION,
+                                                   5,
+                                                   EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                                   EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                                   EGL_CONTEXT_OPENGL_DEBUG,
+                                                   EGL_TRUE,
+                                                   EGL_CONTEXT_OPENGL_ROBUST_ACCESS,
+                                                   EGL_TRUE,
                                                    EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
-                                                   EGL_LOSE_CONTEXT_ON_RESET, EGL_NONE};
+                                                   EGL_LOSE_CONTEXT_ON_RESET,
+                                                   EGL_NONE};
     const EGLContext context =
         eglCreateContext(display, count > 0 ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
     if (context == EGL_NO_CONTEXT) {

@@ -16,16 +16,17 @@ struct NoOpenGLError : std::runtime_error {
 };
 
 struct HeadlessDevice {
-    std::string name;         ///< what EGL says of the device, and GL_RENDERER where a context could be made
-    bool usable = false;      ///< an OpenGL 4.5 core context can be made
-    std::string whyNot;       ///< where it is not usable
+    std::string name;     ///< what EGL says of the device, and GL_RENDERER where a context could be made
+    bool usable = false;  ///< an OpenGL 4.5 core context can be made
+    std::string whyNot;   ///< where it is not usable
 };
 
-/// Everything that can be given as `--device`: EGL's devices in the driver's order, GPUs before software ones, then
-/// Mesa's surfaceless platform. Empty where the machine has no EGL.
+/// Everything that can be given as `--device`: EGL's devices in the driver's order, GPUs before software
+/// ones, then Mesa's surfaceless platform. Empty where the machine has no EGL.
 std::vector<HeadlessDevice> listHeadlessDevices();
 
-/// An OpenGL 4.5 core debug context with robust access, current on the calling thread from construction to destruction.
+/// An OpenGL 4.5 core debug context with robust access, current on the calling thread from construction to
+/// destruction.
 class HeadlessContext {
   public:
     /// `device` is an index into listHeadlessDevices(); without one the first usable device is taken. Throws

@@ -7,8 +7,8 @@
 
 namespace penumbra::studio {
 
-/// The matrices of a camera. Clip-space z is reversed, in [0, 1]: 1 at the near plane; 0 at infinity (perspective) or
-/// behind everything (orthographic).
+/// The matrices of a camera. Clip-space z is reversed, in [0, 1]: 1 at the near plane; 0 at infinity
+/// (perspective) or behind everything (orthographic).
 struct CameraView {
     glm::dmat4 viewFromWorld{1};
     glm::dmat4 clipFromView{1};

@@ -12,7 +12,8 @@ namespace penumbra::studio {
 inline Mat4 toPenumbra(const glm::mat4& matrix) {
     Mat4 result;
     for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) result.columns[std::size_t(column)][std::size_t(row)] = matrix[column][row];
+        for (int row = 0; row < 4; ++row)
+            result.columns[std::size_t(column)][std::size_t(row)] = matrix[column][row];
     }
     return result;
 }
@@ -20,7 +21,8 @@ inline Mat4 toPenumbra(const glm::mat4& matrix) {
 inline glm::mat4 fromPenumbra(const Mat4& matrix) {
     glm::mat4 result;
     for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) result[column][row] = matrix.columns[std::size_t(column)][std::size_t(row)];
+        for (int row = 0; row < 4; ++row)
+            result[column][row] = matrix.columns[std::size_t(column)][std::size_t(row)];
     }
     return result;
 }

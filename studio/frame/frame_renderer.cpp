@@ -71,15 +71,17 @@ VisibilityBuffer FrameRenderer::makeVisibility(const Light& light) const {
 LightingConstants FrameRenderer::lightingConstants(const Light& light, bool coloredVisibility) const {
     const AreaLight& shape = light.shape;
     const glm::dmat4 lightFromWorld = glm::inverse(worldFromLight(shape, camera_));
-    const glm::vec2 cone = light.cone_rad ? glm::vec2(std::cos((*light.cone_rad)[0]), std::cos((*light.cone_rad)[1]))
-                                          : glm::vec2(-2);
+    const glm::vec2 cone = light.cone_rad
+                               ? glm::vec2(std::cos((*light.cone_rad)[0]), std::cos((*light.cone_rad)[1]))
+                               : glm::vec2(-2);
     return {
         .lightFromClip = lightFromWorld * glm::inverse(camera_.clipFromView * camera_.viewFromWorld),
         .lightFromWorld = lightFromWorld,
         .emission = glm::vec4(light.emission.value, 0),
         .size = {0.5f * shape.width_m, 0.5f * shape.height_m, shape.radius_m, 0.5f * shape.angle_rad},
         .cone = glm::vec4(cone, 0, 0),
-        .kind = {int(shape.shape), shape.twoSided, light.emission.unit != Emission::Unit::nits, light.texture >= 0},
+        .kind = {int(shape.shape), shape.twoSided, light.emission.unit != Emission::Unit::nits,
+                 light.texture >= 0},
         .target = {display_.width_px(), display_.height_px(), coloredVisibility, 0},
     };
 }
@@ -98,7 +100,8 @@ void FrameRenderer::addLight(const Light& light, const VisibilityBuffer& visibil
     unshadowed_.bindImage(1, GL_READ_WRITE);
     reach_.bindImage(2, GL_WRITE_ONLY);
     gl::dispatchPixels(display_.width_px(), display_.height_px());
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                    GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
 Image FrameRenderer::readVisibility(const VisibilityBuffer& visibility) const {
@@ -106,7 +109,9 @@ Image FrameRenderer::readVisibility(const VisibilityBuffer& visibility) const {
                        visibility.colored() ? 3 : 1);
 }
 
-Image FrameRenderer::readReach() const { return readTexture(reach_.name(), reach_.width_px(), reach_.height_px(), 1); }
+Image FrameRenderer::readReach() const {
+    return readTexture(reach_.name(), reach_.width_px(), reach_.height_px(), 1);
+}
 
 Image FrameRenderer::readRadiance() const {
     return readTexture(radiance_.name(), radiance_.width_px(), radiance_.height_px(), 3);

@@ -26,9 +26,10 @@ class FrameRenderer {
     /// `shaderSourceDirectory` as in DeviceOptions.
     explicit FrameRenderer(Device& device, std::filesystem::path shaderSourceDirectory = {});
 
-    /// Draws what the camera sees and forgets the light of the frame before. `scene` must be at `moment` and stay
-    /// alive until the next call. Sizes from 1 to Device::maxTextureSize_px().
-    void draw(const GpuScene& scene, const SceneMoment& moment, const Camera& camera, int width_px, int height_px);
+    /// Draws what the camera sees and forgets the light of the frame before. `scene` must be at `moment` and
+    /// stay alive until the next call. Sizes from 1 to Device::maxTextureSize_px().
+    void draw(const GpuScene& scene, const SceneMoment& moment, const Camera& camera, int width_px,
+              int height_px);
 
     /// What a technique needs to know; without casters for a light that casts no shadow.
     ShadowInputs shadowInputs(const Light& light) const;
@@ -39,7 +40,8 @@ class FrameRenderer {
 
     /// Reading waits for the device. Rows from the top.
     Image readVisibility(const VisibilityBuffer& visibility) const;  ///< 1 channel, or 3 where it is colored
-    Image readReach() const;     ///< the last light's unshadowed irradiance for unit emission, 1 channel; 0: not reached
+    Image readReach()
+        const;  ///< the last light's unshadowed irradiance for unit emission, 1 channel; 0: not reached
     Image readRadiance() const;  ///< nits, RGB
     Image readDisplay();         ///< sRGB-encoded RGB in [0, 1]
 

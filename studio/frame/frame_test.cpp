@@ -40,8 +40,8 @@ double sumOverFlatLight(const Case& c, bool disk) {
 double sumOverCone(const glm::dvec3& axis, const glm::dvec3& normal, double sine) {
     constexpr int n = 600;
     const double cosine = std::sqrt(1 - sine * sine);
-    const glm::dvec3 side = glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.9 ? glm::dvec3(1, 0, 0)
-                                                                                     : glm::dvec3(0, 1, 0)));
+    const glm::dvec3 side =
+        glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
     const glm::dvec3 other = glm::cross(axis, side);
     double sum = 0;
     for (int i = 0; i < n; ++i) {
@@ -86,7 +86,8 @@ class UnshadowedTest : public TechniqueTest {
     }
 };
 
-// Tolerances: of the quadratures above, 1e-3 of the light's own irradiance where the horizon cuts their grids.
+// Tolerances: of the quadratures above, 1e-3 of the light's own irradiance where the horizon cuts their
+// grids.
 
 TEST_F(UnshadowedTest, RectIsLambertsFormula) {
     // A 2 x 2 light at z = 2, seen from the axis: E = 0.75227 (closed form C8).
@@ -180,9 +181,8 @@ TEST_F(FrameTest, SpotsFallOffBetweenTheirCones) {
 
 TEST_F(FrameTest, LightsAddUp) {
     const Scene one = makeBuiltin("primitives");
-    const Scene two = withMoment(makeBuiltin("primitives"), [](SceneMoment& moment) {
-        moment.lights.push_back(moment.lights.front());
-    });
+    const Scene two = withMoment(makeBuiltin("primitives"),
+                                 [](SceneMoment& moment) { moment.lights.push_back(moment.lights.front()); });
     const auto radianceOf = [&](const Scene& scene) {
         const std::unique_ptr<Technique> hard = workbench().makeTechnique("hard");
         const SceneMoment moment = scene.at(0);
@@ -201,18 +201,21 @@ TEST_F(FrameTest, PicturesAreUpright) {
     const Scene scene = makeBuiltin("primitives");
     const SceneMoment moment = scene.at(0);
     workbench().open(scene);
-    const TechniqueResult result = workbench().run("hard", *hard, moment, moment.cameras.front(), defaultSize);
+    const TechniqueResult result =
+        workbench().run("hard", *hard, moment, moment.cameras.front(), defaultSize);
     const auto& radiance = result.radiance;
     EXPECT_EQ(radiance.at(radiance.width_px / 2, 0, 1), 0);
     EXPECT_GT(radiance.at(radiance.width_px / 2, radiance.height_px - 1, 1), 0);
 }
 
 TEST_F(FrameTest, SceneWithoutLightsIsDarkButShown) {
-    const Scene scene = withMoment(makeBuiltin("primitives"), [](SceneMoment& moment) { moment.lights.clear(); });
+    const Scene scene =
+        withMoment(makeBuiltin("primitives"), [](SceneMoment& moment) { moment.lights.clear(); });
     const std::unique_ptr<Technique> hard = workbench().makeTechnique("hard");
     const SceneMoment moment = scene.at(0);
     workbench().open(scene);
-    const TechniqueResult result = workbench().run("hard", *hard, moment, moment.cameras.front(), defaultSize);
+    const TechniqueResult result =
+        workbench().run("hard", *hard, moment, moment.cameras.front(), defaultSize);
     EXPECT_TRUE(result.lights.empty());
     for (const float value : result.display.values) ASSERT_TRUE(value >= 0 && value <= 1);
 }

@@ -9,7 +9,8 @@
 namespace penumbra::studio {
 namespace {
 
-/// Transforms normals like the inverse transpose does, up to a factor, and exists for flattened instances too.
+/// Transforms normals like the inverse transpose does, up to a factor, and exists for flattened instances
+/// too.
 glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
@@ -46,8 +47,9 @@ void GBuffer::render(const GpuScene& scene, const CameraView& camera, int width_
     view_.viewFromWorld = toPenumbra(glm::mat4(camera.viewFromWorld));
     view_.clipFromView = toPenumbra(glm::mat4(camera.clipFromView));
 
-    gl::beginPass(framebuffer_.name(),
-                  {.width_px = width_px, .height_px = height_px, .depthTest = GL_GREATER, .depthWrite = true});
+    gl::beginPass(
+        framebuffer_.name(),
+        {.width_px = width_px, .height_px = height_px, .depthTest = GL_GREATER, .depthWrite = true});
     constexpr std::array<float, 4> zero{};
     for (GLint buffer = 0; buffer < 4; ++buffer) {
         glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, buffer, zero.data());

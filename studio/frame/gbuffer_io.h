@@ -14,11 +14,11 @@ using glm::vec4;
 struct InstanceConstants {
     mat4 clipFromMesh;
     mat4 viewFromMesh;
-    mat4 worldFromView;         // rotates normals
-    mat4 viewFromMeshNormal;    // rotates and stretches normals; not unit
+    mat4 worldFromView;       // rotates normals
+    mat4 viewFromMeshNormal;  // rotates and stretches normals; not unit
     vec4 baseColor;
-    vec4 alpha;                 // x: cutoff, or -1 where there is no mask
-    ivec4 flags;                // x: has a texture; y: receives; z: unlit; w: orthographic view
+    vec4 alpha;   // x: cutoff, or -1 where there is no mask
+    ivec4 flags;  // x: has a texture; y: receives; z: unlit; w: orthographic view
 };
 
 #ifdef __cplusplus

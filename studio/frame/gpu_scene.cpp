@@ -18,8 +18,8 @@ gl::Texture uploadPicture(const Picture& picture, std::span<const std::uint8_t> 
                         .format = GL_SRGB8_ALPHA8,
                         .label = picture.name});
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(result.name(), 0, 0, 0, picture.width_px, picture.height_px, GL_RGBA, GL_UNSIGNED_BYTE,
-                        rgba.data());
+    glTextureSubImage2D(result.name(), 0, 0, 0, picture.width_px, picture.height_px, GL_RGBA,
+                        GL_UNSIGNED_BYTE, rgba.data());
     glGenerateTextureMipmap(result.name());
     return result;
 }
@@ -99,7 +99,8 @@ void GpuScene::update(const SceneMoment& moment) {
                       .casts = instance.casts,
                       .receives = instance.receives};
         if (material.alpha == Material::Alpha::mask && material.baseColorTexture >= 0) {
-            caster.alphaMask = {texture(material.baseColorTexture), material.baseColor.a, material.alphaCutoff};
+            caster.alphaMask = {texture(material.baseColorTexture), material.baseColor.a,
+                                material.alphaCutoff};
         } else if (material.alpha == Material::Alpha::mask && material.baseColor.a < material.alphaCutoff) {
             caster.casts = false;  // all of it is a hole
         }

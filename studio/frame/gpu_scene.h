@@ -34,8 +34,8 @@ class GpuScene {
     /// Texture name for an index into Scene::textures; 0 for -1.
     GLuint texture(int index) const { return index < 0 ? 0 : textures_[std::size_t(index)].name(); }
 
-    /// The same for a texture that a light of the moment shows, oriented as AreaLight::radianceTexture wants it: the
-    /// picture's bottom row lies at the light's -Y edge.
+    /// The same for a texture that a light of the moment shows, oriented as AreaLight::radianceTexture wants
+    /// it: the picture's bottom row lies at the light's -Y edge.
     GLuint radianceTexture(int index) const { return index < 0 ? 0 : radianceTextures_.at(index).name(); }
 
   private:
@@ -49,8 +49,8 @@ class GpuScene {
     const Scene& scene_;
     std::vector<gl::Texture> textures_;
     std::map<int, gl::Texture> radianceTextures_;  ///< by index into Scene::textures
-    std::vector<MeshOnDevice> shared_;     ///< one a mesh of the scene
-    std::vector<MeshOnDevice> deforming_;  ///< one an instance that deforms, in their order
+    std::vector<MeshOnDevice> shared_;             ///< one a mesh of the scene
+    std::vector<MeshOnDevice> deforming_;          ///< one an instance that deforms, in their order
     std::vector<Drawable> drawables_;
     std::vector<Caster> casters_;
 };

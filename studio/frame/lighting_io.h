@@ -15,10 +15,10 @@ struct LightingConstants {
     mat4 lightFromClip;
     mat4 lightFromWorld;  // rotates normals
     vec4 emission;        // rgb: nits, candela or lux; a: unused
-    vec4 size;            // xy: half extents of a rect; z: radius of a disk or sphere; w: half angle of a distant light
-    vec4 cone;            // x: cosine of the inner, y: of the outer half angle of a spot; -2 where there is none
-    ivec4 kind;           // x: LightShape; y: two-sided; z: emission is of a point (candela, lux); w: textured
-    ivec4 target;         // xy: size in pixels; z: colored visibility
+    vec4 size;  // xy: half extents of a rect; z: radius of a disk or sphere; w: half angle of a distant light
+    vec4 cone;  // x: cosine of the inner, y: of the outer half angle of a spot; -2 where there is none
+    ivec4 kind;    // x: LightShape; y: two-sided; z: emission is of a point (candela, lux); w: textured
+    ivec4 target;  // xy: size in pixels; z: colored visibility
 };
 
 #ifdef __cplusplus

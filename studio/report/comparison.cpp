@@ -77,15 +77,16 @@ nlohmann::ordered_json toJson(const Comparison& comparison) {
 }
 
 std::string toTable(const Comparison& comparison) {
-    std::string table = fmt::format("{:<14} {:<14} {:>9} {:>9} {:>9} {:>7} {:>7} {:>8} {:>8} {:>9}\n", "technique",
-                                    "light", "rmse", "penumbra", "p99", "max", "leak", "false", "flip", "ms");
+    std::string table =
+        fmt::format("{:<14} {:<14} {:>9} {:>9} {:>9} {:>7} {:>7} {:>8} {:>8} {:>9}\n", "technique", "light",
+                    "rmse", "penumbra", "p99", "max", "leak", "false", "flip", "ms");
     for (const TechniqueComparison& technique : comparison.techniques) {
         for (const LightComparison& light : technique.lights) {
             const VisibilityMetrics& m = light.metrics;
-            table += fmt::format("{:<14} {:<14} {:>9.4f} {:>9.4f} {:>9.4f} {:>7.3f} {:>6.2f}% {:>7.2f}% {:>8.4f} {:>9.2f}\n",
-                                 technique.technique, light.light, m.rmse, m.penumbra_rmse, m.p99, m.max,
-                                 100 * m.leak, 100 * m.false_shadow, technique.flip,
-                                 medianOf(light.milliseconds));
+            table += fmt::format(
+                "{:<14} {:<14} {:>9.4f} {:>9.4f} {:>9.4f} {:>7.3f} {:>6.2f}% {:>7.2f}% {:>8.4f} {:>9.2f}\n",
+                technique.technique, light.light, m.rmse, m.penumbra_rmse, m.p99, m.max, 100 * m.leak,
+                100 * m.false_shadow, technique.flip, medianOf(light.milliseconds));
         }
     }
     table += fmt::format("reference: {} rays a pixel, noise {:.4f} rms, {:.2f} million rays/s\n",
@@ -94,10 +95,13 @@ std::string toTable(const Comparison& comparison) {
     return table;
 }
 
-void writeComparison(const std::filesystem::path& folder, const Comparison& comparison, const Metadata& metadata) {
+void writeComparison(const std::filesystem::path& folder, const Comparison& comparison,
+                     const Metadata& metadata) {
     const std::string reference(referenceName);
     std::vector<LabelledImage> sheet;
-    const auto write = [&](const std::string& file, const Image& image) { writePng(folder / file, image, metadata); };
+    const auto write = [&](const std::string& file, const Image& image) {
+        writePng(folder / file, image, metadata);
+    };
 
     write(reference + ".png", comparison.reference.display);
     // One row for each: the picture, then its visibility (the truth) or its errors, light by light.

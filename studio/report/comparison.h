@@ -31,9 +31,9 @@ struct TechniqueComparison {
 
 struct ReferenceSummary {
     int samples = 0;
-    double noise_rms = 0;        ///< the largest of all lights
-    double raysPerSecond = 0;    ///< when the traces were made; they may come from the cache
-    Image display;               ///< sRGB-encoded RGB
+    double noise_rms = 0;             ///< the largest of all lights
+    double raysPerSecond = 0;         ///< when the traces were made; they may come from the cache
+    Image display;                    ///< sRGB-encoded RGB
     std::vector<Image> visibilities;  ///< one a light, in the order of TechniqueComparison::lights
 };
 
@@ -52,10 +52,11 @@ nlohmann::ordered_json toJson(const Comparison& comparison);
 /// A table for a terminal: a row for each technique and light.
 std::string toTable(const Comparison& comparison);
 
-/// Writes into `folder`, which must exist: for each technique its picture (TECHNIQUE.png), and for each light its
-/// visibility and the signed difference to the truth x5; the same for the reference; contact-sheet.png; report.html.
-/// Files of a light carry its name where there are several. Throws OutputError.
-void writeComparison(const std::filesystem::path& folder, const Comparison& comparison, const Metadata& metadata);
+/// Writes into `folder`, which must exist: for each technique its picture (TECHNIQUE.png), and for each light
+/// its visibility and the signed difference to the truth x5; the same for the reference; contact-sheet.png;
+/// report.html. Files of a light carry its name where there are several. Throws OutputError.
+void writeComparison(const std::filesystem::path& folder, const Comparison& comparison,
+                     const Metadata& metadata);
 
 /// One page that opens from disk and holds its pictures: side by side, wiped over each other, and the table.
 std::string toHtml(const Comparison& comparison);

@@ -32,11 +32,20 @@ std::string escape(std::string_view text) {
     std::string escaped;
     for (const char c : text) {
         switch (c) {
-            case '&': escaped += "&amp;"; break;
-            case '<': escaped += "&lt;"; break;
-            case '>': escaped += "&gt;"; break;
-            case '"': escaped += "&quot;"; break;
-            default: escaped += c;
+            case '&':
+                escaped += "&amp;";
+                break;
+            case '<':
+                escaped += "&lt;";
+                break;
+            case '>':
+                escaped += "&gt;";
+                break;
+            case '"':
+                escaped += "&quot;";
+                break;
+            default:
+                escaped += c;
         }
     }
     return escaped;
@@ -55,10 +64,11 @@ std::string metricsTable(const Comparison& comparison) {
         for (const LightComparison& light : technique.lights) {
             const VisibilityMetrics& m = light.metrics;
             html += fmt::format(
-                "<tr><td>{}<td>{}<td>{:.4f}<td>{:.4f}<td>{:.4f}<td>{:.3f}<td>{:.2f} %<td>{:.2f} %<td>{:.4f}<td>{:.2f}"
+                "<tr><td>{}<td>{}<td>{:.4f}<td>{:.4f}<td>{:.4f}<td>{:.3f}<td>{:.2f} %<td>{:.2f} "
+                "%<td>{:.4f}<td>{:.2f}"
                 "</tr>\n",
-                escape(technique.technique), escape(light.light), m.rmse, m.penumbra_rmse, m.p99, m.max, 100 * m.leak,
-                100 * m.false_shadow, technique.flip, medianOf(light.milliseconds));
+                escape(technique.technique), escape(light.light), m.rmse, m.penumbra_rmse, m.p99, m.max,
+                100 * m.leak, 100 * m.false_shadow, technique.flip, medianOf(light.milliseconds));
         }
     }
     return html + "</table>\n";
@@ -67,7 +77,8 @@ std::string metricsTable(const Comparison& comparison) {
 std::string choices(const Comparison& comparison, std::string_view chosen) {
     std::string html;
     const auto add = [&](std::string_view name) {
-        html += fmt::format("<option value=\"{0}.png\"{1}>{0}</option>", name, name == chosen ? " selected" : "");
+        html +=
+            fmt::format("<option value=\"{0}.png\"{1}>{0}</option>", name, name == chosen ? " selected" : "");
     };
     add(referenceName);
     for (const TechniqueComparison& technique : comparison.techniques) add(technique.technique);
@@ -81,13 +92,16 @@ std::string toHtml(const Comparison& comparison) {
         comparison.techniques.empty() ? std::string(referenceName) : comparison.techniques.front().technique;
     std::string html = fmt::format(
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>{0}: shadows compared</title>"
-        "<style>{1}</style>\n<h1>{0}</h1>\n<p>{2} x {3} pixels; reference: {4} rays a pixel, noise {5:.4f} rms. "
+        "<style>{1}</style>\n<h1>{0}</h1>\n<p>{2} x {3} pixels; reference: {4} rays a pixel, noise {5:.4f} "
+        "rms. "
         "Times on {6}.<br><code>{7}</code></p>\n",
-        escape(comparison.scene), style, comparison.width_px, comparison.height_px, comparison.reference.samples,
-        comparison.reference.noise_rms, escape(comparison.renderer), escape(comparison.command));
+        escape(comparison.scene), style, comparison.width_px, comparison.height_px,
+        comparison.reference.samples, comparison.reference.noise_rms, escape(comparison.renderer),
+        escape(comparison.command));
     html += metricsTable(comparison);
     html += fmt::format(
-        "<h2>Wipe</h2>\n<p><select>{}</select> | <select>{}</select></p>\n<input type=\"range\" value=\"50\">\n"
+        "<h2>Wipe</h2>\n<p><select>{}</select> | <select>{}</select></p>\n<input type=\"range\" "
+        "value=\"50\">\n"
         "<div class=\"wipe\"><img src=\"{}.png\" alt=\"left\"><img src=\"{}.png\" alt=\"right\"></div>\n",
         choices(comparison, first), choices(comparison, referenceName), first, referenceName);
     const std::size_t lights = comparison.reference.visibilities.size();
@@ -98,7 +112,8 @@ std::string toHtml(const Comparison& comparison) {
             html += "<div class=\"row\">" +
                     figure(visibilityFile(technique.technique, suffix), "visibility of " + light.light) +
                     figure(visibilityFile(std::string(referenceName), suffix), "truth") +
-                    figure(differenceFile(technique.technique, suffix), "difference x5 (red: too light, blue: too dark)") +
+                    figure(differenceFile(technique.technique, suffix),
+                           "difference x5 (red: too light, blue: too dark)") +
                     "</div>\n";
         }
     }

@@ -41,8 +41,9 @@ struct Texture {
 struct Material {
     enum class Alpha { opaque, mask };  // glTF's BLEND is loaded as opaque, with a warning
     std::string name;
-    glm::vec4 baseColor{1};       ///< linear; alpha multiplies the texture's
-    int baseColorTexture = -1;    ///< index into Scene::textures; its UV set and transform are baked into Mesh::uvs
+    glm::vec4 baseColor{1};  ///< linear; alpha multiplies the texture's
+    /// Index into Scene::textures; its UV set and transform are baked into Mesh::uvs
+    int baseColorTexture = -1;
     Alpha alpha = Alpha::opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
@@ -63,9 +64,9 @@ struct Mesh {
     std::vector<glm::vec2> uvs;      ///< one a vertex, or empty where the material has no texture
     std::vector<std::uint32_t> indices;
     std::vector<MorphTarget> morphTargets;
-    std::vector<float> morphWeights;         ///< default weights, one a target
-    std::vector<glm::u16vec4> joints;        ///< one a vertex, or empty; up to four influences (the largest)
-    std::vector<glm::vec4> jointWeights;     ///< one a vertex, or empty; sums to 1
+    std::vector<float> morphWeights;      ///< default weights, one a target
+    std::vector<glm::u16vec4> joints;     ///< one a vertex, or empty; up to four influences (the largest)
+    std::vector<glm::vec4> jointWeights;  ///< one a vertex, or empty; sums to 1
     bool deforms() const { return !morphTargets.empty() || !joints.empty(); }
 };
 
@@ -82,9 +83,9 @@ struct Emission {
 
 struct Light {
     std::string name;
-    AreaLight shape;       ///< in world space at the evaluated time; radianceTexture is filled in by the renderer
+    AreaLight shape;  ///< in world space at the evaluated time; radianceTexture is filled in by the renderer
     Emission emission;
-    int texture = -1;      ///< index into Scene::textures, rect lights only
+    int texture = -1;  ///< index into Scene::textures, rect lights only
     bool castsShadow = true;
     /// Spot lights: half-angles of the cone about -Z in which light falls off from full to none.
     std::optional<std::array<float, 2>> cone_rad;  ///< {inner, outer}
@@ -92,18 +93,19 @@ struct Light {
 
 struct Camera {
     std::string name;
-    glm::mat4 worldFromCamera{1};  ///< rigid; looks along -Z, +Y up
-    float yfov_rad = 0.8f;         ///< perspective
+    glm::mat4 worldFromCamera{1};               ///< rigid; looks along -Z, +Y up
+    float yfov_rad = 0.8f;                      ///< perspective
     std::optional<float> orthographicHeight_m;  ///< whole height of the picture; orthographic where set
 };
 
 /// A mesh placed in the world at one moment.
 struct Instance {
-    int mesh = 0;                  ///< index into Scene::meshes
-    int node = 0;                  ///< index into Scene::nodeNames, always valid
+    int mesh = 0;  ///< index into Scene::meshes
+    int node = 0;  ///< index into Scene::nodeNames, always valid
     glm::mat4 worldFromMesh{1};
     bool casts = true, receives = true;
-    /// Where the mesh deforms: its vertices at this moment, in mesh space (a skin's include worldFromMesh = identity).
+    /// Where the mesh deforms: its vertices at this moment, in mesh space (a skin's include worldFromMesh =
+    /// identity).
     std::vector<glm::vec3> positions, normals;
 };
 

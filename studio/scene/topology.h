@@ -16,8 +16,8 @@ struct Topology {
     std::size_t edges = 0;             ///< of triangles that are not degenerate
     std::size_t boundaryEdges = 0;     ///< used by one triangle
     std::size_t nonManifoldEdges = 0;  ///< used by three or more
-    std::size_t flippedEdges =
-        0;  ///< used by two that walk it in the same direction: their windings disagree
+    /// Used by two that walk it in the same direction: their windings disagree
+    std::size_t flippedEdges = 0;
     std::size_t degenerateTriangles = 0;  ///< with two corners at one position; not counted into the edges
 
     /// Every edge joins exactly two triangles. True of nothing at all.

@@ -26,7 +26,8 @@ Progress::~Progress() {
 
 void Progress::update(double fraction) {
     const auto now = Clock::now();
-    if (now - shown_ < (terminal_ ? Clock::duration(intervalOnTerminal) : Clock::duration(intervalElsewhere))) return;
+    if (now - shown_ < (terminal_ ? Clock::duration(intervalOnTerminal) : Clock::duration(intervalElsewhere)))
+        return;
     shown_ = now;
     drawn_ = true;
     const double elapsed_s = std::chrono::duration<double>(now - start_).count();

@@ -37,13 +37,15 @@ ReceiverImage readReceivers(const View& view) {
                                                  : Image(width, height, 1, 1.0f);
 
     const glm::dmat4 worldFromView = glm::inverse(glm::dmat4(fromPenumbra(view.viewFromWorld)));
-    const glm::dmat4 worldFromClip = worldFromView * glm::inverse(glm::dmat4(fromPenumbra(view.clipFromView)));
+    const glm::dmat4 worldFromClip =
+        worldFromView * glm::inverse(glm::dmat4(fromPenumbra(view.clipFromView)));
     const float background = view.depth.reversed ? 0.0f : 1.0f;
     ReceiverImage receivers{.width_px = width, .height_px = height, .eyeWorld = glm::vec3(worldFromView[3])};
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const float stored = depth.at(x, height - 1 - y);  // read back bottom row first
-            const glm::dvec4 clip((x + 0.5) / width * 2 - 1, 1 - (y + 0.5) / height * 2, clipZ(view.depth, stored), 1);
+            const glm::dvec4 clip((x + 0.5) / width * 2 - 1, 1 - (y + 0.5) / height * 2,
+                                  clipZ(view.depth, stored), 1);
             const glm::dvec4 posWorld = worldFromClip * clip;
             const bool valid = stored != background && mask.at(x, y) >= 0.5f;
             receivers.valid.push_back(valid);
@@ -90,14 +92,15 @@ ReferenceScene makeScene(std::span<const Caster> casters) {
         if (caster.alphaMask.texture == 0) continue;
         const GLuint texture = caster.alphaMask.texture;
         const MaskPixels& pixels = masks.emplace_back(readMask(texture));
-        target.alphaMask = TracedAlphaMask{.width_px = pixels.width_px,
-                                           .height_px = pixels.height_px,
-                                           .rgba = pixels.rgba,
-                                           .wrapS = Wrap(textureParameter(texture, GL_TEXTURE_WRAP_S)),
-                                           .wrapT = Wrap(textureParameter(texture, GL_TEXTURE_WRAP_T)),
-                                           .linearFilter = textureParameter(texture, GL_TEXTURE_MAG_FILTER) == GL_LINEAR,
-                                           .factor = caster.alphaMask.factor,
-                                           .cutoff = caster.alphaMask.cutoff};
+        target.alphaMask =
+            TracedAlphaMask{.width_px = pixels.width_px,
+                            .height_px = pixels.height_px,
+                            .rgba = pixels.rgba,
+                            .wrapS = Wrap(textureParameter(texture, GL_TEXTURE_WRAP_S)),
+                            .wrapT = Wrap(textureParameter(texture, GL_TEXTURE_WRAP_T)),
+                            .linearFilter = textureParameter(texture, GL_TEXTURE_MAG_FILTER) == GL_LINEAR,
+                            .factor = caster.alphaMask.factor,
+                            .cutoff = caster.alphaMask.cutoff};
     }
     return ReferenceScene(traced);
 }
@@ -109,7 +112,8 @@ std::optional<RadianceTexture> readRadianceTexture(GLuint texture) {
     glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_HEIGHT, &height);
     Image rows(width, height, 3);  // GL's first row is the light's -Y edge, as RadianceTexture wants it
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTextureImage(texture, 0, GL_RGB, GL_FLOAT, GLsizei(rows.values.size() * sizeof(float)), rows.values.data());
+    glGetTextureImage(texture, 0, GL_RGB, GL_FLOAT, GLsizei(rows.values.size() * sizeof(float)),
+                      rows.values.data());
     return RadianceTexture{std::move(rows)};
 }
 
@@ -118,7 +122,8 @@ void write(const Image& image, const VisibilityBuffer& out) {
     Image flipped = image;
     const std::size_t row = std::size_t(image.width_px) * std::size_t(image.channels);
     for (std::size_t y = 0; y < std::size_t(image.height_px); ++y) {
-        std::copy_n(&image.values[y * row], row, &flipped.values[(std::size_t(image.height_px) - 1 - y) * row]);
+        std::copy_n(&image.values[y * row], row,
+                    &flipped.values[(std::size_t(image.height_px) - 1 - y) * row]);
     }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage2D(out.texture(), 0, 0, 0, image.width_px, image.height_px,
@@ -130,8 +135,9 @@ void write(const Image& image, const VisibilityBuffer& out) {
 void ReferenceTechnique::describe(ParameterVisitor& visitor) {
     visitor.integer({.name = "samples", .unit = "rays", .help = "rays for each pixel"}, samples_, {2, 65536});
     visitor.integer({.name = "seed", .help = "chooses the sampling pattern"}, seed_, {0, 1 << 30});
-    visitor.choice({.name = "weight", .help = "what a part of the light counts by: its area, or its irradiance"},
-                   weight_, weightNames);
+    visitor.choice(
+        {.name = "weight", .help = "what a part of the light counts by: its area, or its irradiance"},
+        weight_, weightNames);
     visitor.boolean({.name = "cache", .help = "keep traces on disk and use them again"}, cached_);
 }
 

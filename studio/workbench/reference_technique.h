@@ -8,8 +8,8 @@
 
 namespace penumbra::studio {
 
-/// The ray-traced truth behind the interface of the techniques. Reads the view's depth and normals back, so that its
-/// rays start from the very positions that the techniques get. Needs normals in the view.
+/// The ray-traced truth behind the interface of the techniques. Reads the view's depth and normals back, so
+/// that its rays start from the very positions that the techniques get. Needs normals in the view.
 class ReferenceTechnique final : public Technique {
   public:
     void describe(ParameterVisitor& visitor) override;

@@ -14,14 +14,23 @@
 namespace penumbra::studio {
 namespace {
 
-constexpr TechniqueInfo referenceInfo{"reference", "ray tracing (Embree): the truth, up to its stated noise", 0.01f};
+constexpr TechniqueInfo referenceInfo{"reference", "ray tracing (Embree): the truth, up to its stated noise",
+                                      0.01f};
 
 void logFromDevice(LogLevel level, std::string_view message) {
     switch (level) {
-        case LogLevel::debug: spdlog::debug("{}", message); break;
-        case LogLevel::info: spdlog::info("{}", message); break;
-        case LogLevel::warning: spdlog::warn("{}", message); break;
-        case LogLevel::error: spdlog::error("{}", message); break;
+        case LogLevel::debug:
+            spdlog::debug("{}", message);
+            break;
+        case LogLevel::info:
+            spdlog::info("{}", message);
+            break;
+        case LogLevel::warning:
+            spdlog::warn("{}", message);
+            break;
+        case LogLevel::error:
+            spdlog::error("{}", message);
+            break;
     }
 }
 
@@ -39,8 +48,8 @@ std::vector<TechniqueInfo> allTechniques() {
 }
 
 std::string_view defaultTechnique() {
-    const bool hasAdaptive = std::ranges::find(techniqueCatalog(), "adaptive", &TechniqueInfo::name) !=
-                             techniqueCatalog().end();
+    const bool hasAdaptive =
+        std::ranges::find(techniqueCatalog(), "adaptive", &TechniqueInfo::name) != techniqueCatalog().end();
     return hasAdaptive ? "adaptive" : "hard";
 }
 
@@ -60,7 +69,9 @@ std::unique_ptr<Technique> Workbench::makeTechnique(std::string_view name) {
     return penumbra::makeTechnique(device_, name);
 }
 
-void Workbench::open(const Scene& scene) { scene_ = std::make_unique<GpuScene>(device_, scene); }
+void Workbench::open(const Scene& scene) {
+    scene_ = std::make_unique<GpuScene>(device_, scene);
+}
 
 TechniqueResult Workbench::run(std::string_view name, Technique& technique, const SceneMoment& moment,
                                const Camera& camera, PictureSize size, int timedRuns) {
@@ -95,8 +106,9 @@ TechniqueResult Workbench::run(std::string_view name, Technique& technique, cons
 void Workbench::requireSize(PictureSize size) const {
     const int limit = device_.maxTextureSize_px();
     if (size.width_px < 1 || size.height_px < 1 || size.width_px > limit || size.height_px > limit) {
-        throw UsageError(fmt::format("a picture of {}x{} pixels cannot be made; this device allows 1x1 to {}x{}",
-                                     size.width_px, size.height_px, limit, limit));
+        throw UsageError(
+            fmt::format("a picture of {}x{} pixels cannot be made; this device allows 1x1 to {}x{}",
+                        size.width_px, size.height_px, limit, limit));
     }
 }
 
@@ -107,9 +119,11 @@ const Camera& findCamera(const SceneMoment& moment, const std::optional<std::str
     std::size_t index = 0;
     const char* const end = nameOrIndex->data() + nameOrIndex->size();
     const auto parsed = std::from_chars(nameOrIndex->data(), end, index);
-    if (parsed.ec == std::errc() && parsed.ptr == end && index < moment.cameras.size()) return moment.cameras[index];
+    if (parsed.ec == std::errc() && parsed.ptr == end && index < moment.cameras.size())
+        return moment.cameras[index];
     std::vector<std::string> names;
-    for (const Camera& camera : moment.cameras) names.push_back(fmt::format("{} ({})", names.size(), camera.name));
+    for (const Camera& camera : moment.cameras)
+        names.push_back(fmt::format("{} ({})", names.size(), camera.name));
     throw UsageError(
         fmt::format("there is no camera '{}'; the scene has: {}", *nameOrIndex, fmt::join(names, ", ")));
 }

@@ -21,7 +21,8 @@ namespace penumbra::studio {
 struct LightResult {
     std::string light;
     Image visibility;  ///< 1 channel, or 3 for a textured light
-    Image reach;       ///< the light's unshadowed irradiance for unit emission; 0: the light does not reach the pixel
+    Image reach;  ///< the light's unshadowed irradiance for unit emission; 0: the light does not reach the
+                  ///< pixel
     Statistics statistics;
     std::vector<double> milliseconds;  ///< wall-clock time of each timed render, device included
 };
@@ -41,7 +42,8 @@ struct PictureSize {
 /// All names that `makeAnyTechnique` knows: the library's catalog and "reference".
 std::vector<TechniqueInfo> allTechniques();
 
-/// The technique that is used where none is asked for: adaptive light sampling, or hard while that is missing.
+/// The technique that is used where none is asked for: adaptive light sampling, or hard while that is
+/// missing.
 std::string_view defaultTechnique();
 
 /// A device without a window, and a frame on it.
@@ -56,15 +58,16 @@ class Workbench {
     Device& device() { return device_; }
     FrameRenderer& frame() { return frame_; }
 
-    /// A technique of the catalog, or the ray-traced reference. Throws Error::Kind::unknownName listing them all.
+    /// A technique of the catalog, or the ray-traced reference. Throws Error::Kind::unknownName listing them
+    /// all.
     std::unique_ptr<Technique> makeTechnique(std::string_view name);
 
     /// Takes the scene in; it must outlive its use. Replaces the one before.
     void open(const Scene& scene);
 
     /// Renders all lights of `moment`, each once, and then `timedRuns` more times with the clock running.
-    TechniqueResult run(std::string_view name, Technique& technique, const SceneMoment& moment, const Camera& camera,
-                        PictureSize size, int timedRuns = 0);
+    TechniqueResult run(std::string_view name, Technique& technique, const SceneMoment& moment,
+                        const Camera& camera, PictureSize size, int timedRuns = 0);
 
     /// Throws UsageError if the device cannot make pictures of this size.
     void requireSize(PictureSize size) const;

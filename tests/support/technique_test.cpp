@@ -23,7 +23,9 @@ class ChangedMotion final : public Scene::Motion {
 
 }  // namespace
 
-void TechniqueTest::TearDown() { EXPECT_EQ(workbench().device().severeMessageCount(), 0) << "see the log above"; }
+void TechniqueTest::TearDown() {
+    EXPECT_EQ(workbench().device().severeMessageCount(), 0) << "see the log above";
+}
 
 Workbench& TechniqueTest::workbench() {
     static Workbench instance;
@@ -79,7 +81,8 @@ Scene withMoment(Scene scene, const std::function<void(SceneMoment&)>& change) {
 void shrinkToPoint(Light& light) {
     light.shape.width_m = light.shape.height_m = light.shape.radius_m = light.shape.angle_rad = 0;
     light.texture = -1;
-    light.emission.unit = light.shape.shape == LightShape::distant ? Emission::Unit::lux : Emission::Unit::candela;
+    light.emission.unit =
+        light.shape.shape == LightShape::distant ? Emission::Unit::lux : Emission::Unit::candela;
 }
 
 }  // namespace penumbra::studio

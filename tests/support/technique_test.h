@@ -18,7 +18,8 @@ namespace penumbra::studio {
 /// KEY, VALUE
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// Fails a test after which the driver has reported an error, undefined behaviour or anything of high severity.
+/// Fails a test after which the driver has reported an error, undefined behaviour or anything of high
+/// severity.
 class TechniqueTest : public ::testing::Test {
   public:
     /// One for the whole program: a device takes longer to make than most tests to run.

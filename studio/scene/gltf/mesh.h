@@ -11,8 +11,8 @@ namespace penumbra::studio::gltf {
 struct MeshGroup {
     struct Part {
         int mesh = 0;  ///< index into Scene::meshes
-        bool flatShaded =
-            false;  ///< has no normals in the file: they follow from its triangles as they deform
+        /// Has no normals in the file: they follow from its triangles as they deform
+        bool flatShaded = false;
     };
     std::vector<Part> parts;
     std::size_t targetCount = 0;   ///< morph targets, the same in all primitives
