@@ -32,7 +32,7 @@ struct Dither {
 float gradientNoise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
 
 Dither ditherOf(ivec2 pixel) {
-    if (pcss.search.z == 0) return Dither(mat2(1.0), vec2(0.0));
+    if (pcss.samples.z == 0) return Dither(mat2(1.0), vec2(0.0));
     float noise = gradientNoise(vec2(pixel));
     float angle = 6.2831853 * noise;
     mat2 rotation = mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
@@ -69,7 +69,7 @@ vec2 evenInSolidAngle(vec2 place, float oneMinusCosine) {
 
 vec2 lightPlace(int i, Dither dither, float oneMinusCosine) {
     vec2 place = filterPattern[i];
-    if (pcss.light.x == shapeRect) return pcss.search.z == 0 ? place : 2.0 * fract(0.5 * place + 0.5 + dither.shift) - 1.0;
+    if (pcss.light.x == shapeRect) return pcss.samples.z == 0 ? place : 2.0 * fract(0.5 * place + 0.5 + dither.shift) - 1.0;
     place = dither.rotation * place;
     return pcss.light.x == shapeDisk ? place : evenInSolidAngle(place, oneMinusCosine);
 }
@@ -91,8 +91,8 @@ float largestKWithin(int camera, LightFrame face, float k) {
 
     float closest = -3.4e38;
     bool isInside = all(greaterThanEqual(low, vec2(0.0))) && all(lessThan(high, vec2(1.0)));
-    if (isInside || pcss.light.w == 1) {
-        float tiles = float(textureSize(depthMaps, 0).x) / float(pcss.search.w);
+    if (isInside || pcss.maps.x == 1) {
+        float tiles = float(textureSize(depthMaps, 0).x) / float(pcss.maps.y);
         ivec2 first = min(ivec2(clamp(low, 0.0, 1.0) * tiles), tilesAcross - 1);
         ivec2 last = min(ivec2(clamp(high, 0.0, 1.0) * tiles), tilesAcross - 1);
         int level = 0;
@@ -103,7 +103,7 @@ float largestKWithin(int camera, LightFrame face, float k) {
         closest = max(max(nearestTiles[start + first.y * across + first.x], nearestTiles[start + first.y * across + last.x]),
                       max(nearestTiles[start + last.y * across + first.x], nearestTiles[start + last.y * across + last.x]));
     } else {
-        for (int map = 0; map < pcss.light.w; ++map) {
+        for (int map = 0; map < pcss.maps.x; ++map) {
             closest = max(closest, nearestTiles[map * tilesPerMap + tilesPerMap - 1]);
         }
     }
@@ -112,25 +112,27 @@ float largestKWithin(int camera, LightFrame face, float k) {
     return largest < 0.5 * toleranceTexels * c.depth.w ? 0.0 : min(largest, largestK);
 }
 
-// The mean k of the blockers that may hide some of the light, each weighted by how much of it; 0 if there are none.
+// The mean k of the blockers that may hide some of the light; 0 if there are none.
 float searchBlockers(int camera, LightFrame face, LightFrame lightFrame, Dither dither) {
     float k = largestK;
     for (int i = 0; i < 3; ++i) k = min(k, largestKWithin(camera, face, k));
     if (k == 0.0) return 0.0;
 
-    float sum = 0.0, sumOfWeights = 0.0;
-    for (int i = 0; i < pcss.search.x; ++i) {
+    float area = 0.0, areaTimesK = 0.0, areaOverK = 0.0;
+    for (int i = 0; i < pcss.samples.x; ++i) {
         vec2 direction = dither.rotation * searchPattern[i].xy;
         float outline = pcss.light.x == shapeRect ? 1.0 / max(abs(direction.x), abs(direction.y)) : 1.0;
-        float distanceInLights = k * searchPattern[i].z;
-        Tap tap = tapAny(camera, pcss.light.w, face, lightFrame, distanceInLights * outline * direction);
-        if (!tap.isBlocked || tap.k < distanceInLights) continue;
-        // Its part of the pattern's area (distances are even, hence the factor), divided by k^2: of the light's area.
-        float weight = max(searchPattern[i].z, 0.25 / float(pcss.search.x)) * outline * outline / (tap.k * tap.k);
-        sum += weight * tap.k;
-        sumOfWeights += weight;
+        float fraction = searchPattern[i].z;
+        Tap tap = tapAny(camera, pcss.maps.x, face, lightFrame, k * fraction * outline * direction);
+        if (!tap.isBlocked) continue;
+        // Its part of the searched area. Distances are even, hence the factor; the centre has a disk to itself.
+        float part = max(fraction, 0.25 / float(pcss.samples.x)) * outline * outline;
+        area += part;
+        areaTimesK += part * tap.k;
+        areaOverK += part / tap.k;
     }
-    return sumOfWeights > 0.0 ? min(sum / sumOfWeights, largestK) : 0.0;
+    if (area == 0.0) return 0.0;
+    return min(pcss.samples.w == 1 ? area / areaOverK : areaTimesK / area, largestK);
 }
 
 vec3 seenBy(Receiver receiver, Dither dither) {
@@ -138,7 +140,7 @@ vec3 seenBy(Receiver receiver, Dither dither) {
     if (pcss.light.y == 1 && receiver.posLight.z >= 0.0) return vec3(0.0);
     int camera = -1;
     MapPoint point;
-    for (int i = 0; i < pcss.light.w && camera < 0; ++i) {
+    for (int i = 0; i < pcss.maps.x && camera < 0; ++i) {
         point = mapPoint(i, receiver.posLight);
         if (isInWindow(i, point)) camera = i;
     }
@@ -160,12 +162,12 @@ vec3 seenBy(Receiver receiver, Dither dither) {
     float oneMinusCosine =
         pcss.light.x == shapeSphere ? sine * sine / (1.0 + sqrt(1.0 - sine * sine)) : pcss.extent.z;
     vec3 lit = vec3(0.0), all = vec3(0.0);
-    for (int i = 0; i < pcss.search.y; ++i) {
+    for (int i = 0; i < pcss.samples.y; ++i) {
         vec2 place = lightPlace(i, dither, oneMinusCosine);
         if (center + dot(slope, place) <= 0.0) continue;
         vec3 weight = pcss.light.z == 1 ? textureLod(radiance, 0.5 * place + 0.5, 0.0).rgb : vec3(1.0);
         all += weight;
-        if (!tapAny(camera, pcss.light.w, face, frame, k * place).isBlocked) lit += weight;
+        if (!tapAny(camera, pcss.maps.x, face, frame, k * place).isBlocked) lit += weight;
     }
     return mix(vec3(0.0), lit / max(all, vec3(1e-30)), greaterThan(all, vec3(0.0)));
 }

@@ -12,6 +12,7 @@ namespace penumbra {
 namespace {
 
 constexpr std::array<std::string_view, 2> patternNames = {"fixed", "rotated"};
+constexpr std::array<std::string_view, 2> blockerMeanNames = {"arithmetic", "harmonic"};
 
 AreaLight scaled(AreaLight light, float scale) {
     light.width_m *= scale;
@@ -41,6 +42,9 @@ void Pcss::describe(ParameterVisitor& visitor) {
                     filterSamples_, {1, 1024});
     visitor.choice({.name = "pattern", .help = "fixed: no noise; rotated: another one at each pixel, for few samples"},
                    pattern_, patternNames);
+    visitor.choice({.name = "blocker_mean",
+                    .help = "of the blockers' distances; arithmetic is the sketch's, harmonic leaks less"},
+                   blockerMean_, blockerMeanNames);
     visitor.real({.name = "light_scale",
                   .help = "times the light's size, the sketch's w_Light; 1 is what the light's size and distance say"},
                  lightScale_, {0, 100});
@@ -53,9 +57,10 @@ PcssConstants Pcss::constantsOf(const AreaLight& light) const {
     const bool soft = hasSize(light);
     return {
         .extent = glm::dvec4(extent, 1 - cosine, 0),
-        .light = {int(light.shape), isOneSided(light), light.radianceTexture != 0, depthMap_.count()},
-        .search = {soft ? searchSamples_ : 1, soft ? filterSamples_ : 1, Pattern(pattern_) == Pattern::rotated,
-                   nearestTiles_.tile_px()},
+        .light = {int(light.shape), isOneSided(light), light.radianceTexture != 0, 0},
+        .samples = {soft ? searchSamples_ : 1, soft ? filterSamples_ : 1, Pattern(pattern_) == Pattern::rotated,
+                    BlockerMean(blockerMean_) == BlockerMean::harmonic},
+        .maps = {depthMap_.count(), nearestTiles_.tile_px(), 0, 0},
     };
 }
 

@@ -25,6 +25,7 @@ class Pcss final : public Technique {
 
   private:
     enum class Pattern { fixed, rotated };
+    enum class BlockerMean { arithmetic, harmonic };
 
     PcssConstants constantsOf(const AreaLight& light) const;
     void updatePatterns(const AreaLight& light);
@@ -33,6 +34,7 @@ class Pcss final : public Technique {
     int searchSamples_ = 64;
     int filterSamples_ = 64;
     int pattern_ = int(Pattern::fixed);
+    int blockerMean_ = int(BlockerMean::harmonic);
     float lightScale_ = 1;
 
     DepthMap depthMap_;
