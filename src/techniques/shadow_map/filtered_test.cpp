@@ -208,6 +208,21 @@ TEST_F(PcfTest, KernelsAreAsWideAsTheySay) {
     EXPECT_NEAR(width_px("bicubic", 2) / texel_px, 3, 0.4);
 }
 
+TEST_F(PcfTest, VisibilityRisesSteadilyAcrossAnEdge) {
+    const Scene scene = fromAbove("half-plane");
+    for (const char* kernel : {"2x2", "3x3", "5x5", "bicubic"}) {
+        const LightResult result = render("pcf", scene, plan, {{"kernel", kernel}, {"map_size", "24"}});
+        float largestStep = 0;
+        for (int x = 1; x < plan.width_px; ++x) {
+            const float step = result.visibility.at(x, 45) - result.visibility.at(x - 1, 45);
+            EXPECT_GE(step, -1e-5f) << kernel << " at column " << x;
+            largestStep = std::max(largestStep, step);
+        }
+        // A texel is more than five pixels wide, and no kernel is steeper than the bilinear one.
+        EXPECT_LE(largestStep, 0.2f) << kernel;
+    }
+}
+
 TEST_F(PcfTest, KernelsKeepWhatIsWhollyLitOrDark) {
     const Scene scene = makeBuiltin("columns");
     const LightResult hard = render("hard", scene);
