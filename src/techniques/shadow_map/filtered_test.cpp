@@ -16,7 +16,8 @@ using PcssTest = TechniqueTest;
 constexpr PictureSize plan{160, 90};  // 5.33 m x 3 m, see scenes_closed_form.cpp
 
 /// The scene seen straight down, with its light changed.
-Scene fromAbove(std::string_view name, const std::function<void(AreaLight&)>& change = [](AreaLight&) {}) {
+Scene fromAbove(
+    std::string_view name, const std::function<void(AreaLight&)>& change = [](AreaLight&) {}) {
     return withMoment(makeBuiltin(name), [change](SceneMoment& moment) {
         moment.cameras.erase(moment.cameras.begin());
         change(moment.lights.front().shape);
@@ -39,7 +40,8 @@ double largestError(const LightResult& result, const std::function<double(glm::d
     return largest;
 }
 
-/// Share of a disk that a half-plane leaves free, its edge at the signed distance d (in radii) from the centre.
+/// Share of a disk that a half-plane leaves free, its edge at the signed distance d (in radii) from the
+/// centre.
 double freeOfDisk(double d) {
     d = std::clamp(d, -1.0, 1.0);
     return (std::acos(d) - d * std::sqrt(1 - d * d)) / std::numbers::pi;
@@ -59,19 +61,21 @@ std::size_t partlyLit(const LightResult& result) {
         std::ranges::count_if(result.visibility.values, [](float v) { return v > 1e-5f && v < 1 - 1e-5f; }));
 }
 
-// 64 points cut the light into 64 strips, of which an edge is wrong by one at most; a texel of the map moves the edge by
-// another 0.005.
+// 64 points cut the light into 64 strips, of which an edge is wrong by one at most; a texel of the map moves
+// the edge by another 0.005.
 constexpr double rectTolerance = 1.0 / 64 + 0.01;
 // The spiral's points are less even along one axis: an edge is wrong by two or three of them.
 constexpr double diskTolerance = 3.0 / 64 + 0.01;
 
 TEST_F(PcssTest, HalfPlaneUnderRectIsTheClosedForm) {
     for (const double width_m : {1.0, 0.3, 2.0}) {
-        const Scene scene = fromAbove("half-plane", [=](AreaLight& light) { light.width_m = float(width_m); });
+        const Scene scene =
+            fromAbove("half-plane", [=](AreaLight& light) { light.width_m = float(width_m); });
         const LightResult result = render("pcss", scene, plan);
         // Nothing but the light's width, across the edge, may matter. Its height stays 1 m.
-        EXPECT_LE(largestError(result, [=](glm::dvec2 p) { return std::clamp(0.5 + p.x / width_m, 0.0, 1.0); }),
-                  rectTolerance)
+        EXPECT_LE(
+            largestError(result, [=](glm::dvec2 p) { return std::clamp(0.5 + p.x / width_m, 0.0, 1.0); }),
+            rectTolerance)
             << width_m;
     }
 }
@@ -86,7 +90,8 @@ TEST_F(PcssTest, HalfPlaneUnderDiskIsTheClosedForm) {
 }
 
 TEST_F(PcssTest, StripIsTheClosedForm) {
-    // C3: the strip |x| < 0.2 m hides, from x, what lies between -x - 0.4 and -x + 0.4 of the light's -0.5 to 0.5.
+    // C3: the strip |x| < 0.2 m hides, from x, what lies between -x - 0.4 and -x + 0.4 of the light's -0.5 to
+    // 0.5.
     const auto expected = [](glm::dvec2 p) {
         return 1 - std::max(0.0, std::min(0.5, 0.4 - p.x) - std::max(-0.5, -0.4 - p.x));
     };
@@ -124,8 +129,9 @@ TEST_F(PcssTest, EveryShapeIsNearTheReference) {
         double penumbraRmse;
     };
     // What a single map from the centre leaves: measured 0.02 to 0.04 with one box over another.
-    for (const auto& [shape, penumbraRmse] : {Case{LightShape::rect, 0.06}, Case{LightShape::disk, 0.06},
-                                              Case{LightShape::sphere, 0.06}, Case{LightShape::distant, 0.08}}) {
+    for (const auto& [shape, penumbraRmse] :
+         {Case{LightShape::rect, 0.06}, Case{LightShape::disk, 0.06}, Case{LightShape::sphere, 0.06},
+          Case{LightShape::distant, 0.08}}) {
         const Scene scene = withLight(makeBuiltin("two-boxes"), [shape = shape](Light& light) {
             light.shape.shape = shape;
             light.shape.radius_m = 0.3f;
@@ -179,7 +185,8 @@ TEST_F(PcssTest, HarmonicMeanLeaksLess) {
     const Scene scene = makeBuiltin("overlapping-blockers");
     const LightResult exact = truth(scene);
     const double harmonic = judge(exact, render("pcss", scene)).leak;
-    const double arithmetic = judge(exact, render("pcss", scene, defaultSize, {{"blocker_mean", "arithmetic"}})).leak;
+    const double arithmetic =
+        judge(exact, render("pcss", scene, defaultSize, {{"blocker_mean", "arithmetic"}})).leak;
     EXPECT_LT(harmonic, 0.5 * arithmetic);
 }
 
@@ -192,8 +199,8 @@ TEST_F(PcfTest, PoissonDiskOfRadiusZeroIsBilinear) {
 }
 
 TEST_F(PcfTest, KernelsAreAsWideAsTheySay) {
-    // A map of so few texels that the picture resolves them. The edge lies between two texels, so that a kernel over
-    // 2, 4 or 6 of them takes 1, 3 or 5 to cross it.
+    // A map of so few texels that the picture resolves them. The edge lies between two texels, so that a
+    // kernel over 2, 4 or 6 of them takes 1, 3 or 5 to cross it.
     const Scene scene = fromAbove("half-plane");
     const auto width_px = [&](const char* kernel, int reach_texels) {
         const LightResult result = render("pcf", scene, plan, {{"kernel", kernel}, {"map_size", "24"}});
@@ -246,7 +253,8 @@ TEST_F(PcfTest, CubeOfMapsHasNoSeams) {
         EXPECT_LE(shareOfDifferentPixels(hard, result, 1e-5f), 0) << kernel;
         // With casters: no false shadow along the faces' edges either.
         const VisibilityMetrics metrics =
-            judge(truth(edge, defaultSize, 64), render("pcf", edge, defaultSize, {{"kernel", kernel}, {"radius", "4"}}));
+            judge(truth(edge, defaultSize, 64),
+                  render("pcf", edge, defaultSize, {{"kernel", kernel}, {"radius", "4"}}));
         EXPECT_LE(metrics.false_shadow, 0.01) << kernel;
     }
 }

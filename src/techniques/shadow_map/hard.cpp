@@ -4,19 +4,19 @@
 namespace penumbra {
 
 HardShadowMap::HardShadowMap(Device& device)
-    : depthMap_(device),
-      resolve_(device.internals().shaders, {"src/techniques/shadow_map/hard.comp.glsl"}) {}
+    : depthMap_(device), resolve_(device.internals().shaders, {"src/techniques/shadow_map/hard.comp.glsl"}) {}
 
 void HardShadowMap::describe(ParameterVisitor& visitor) {
-    visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"}, mapSize_px_,
-                    {16, 16384});
+    visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"},
+                    mapSize_px_, {16, 16384});
 }
 
 void HardShadowMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     checkInputs(inputs, out);
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
-    const std::vector<LightCamera> cameras = fitLightCameras(inputs.light, scene, {.mapSize_px = mapSize_px_});
+    const std::vector<LightCamera> cameras =
+        fitLightCameras(inputs.light, scene, {.mapSize_px = mapSize_px_});
     {
         const auto pass = timers_.pass("hard/depth map");
         depthMap_.render(inputs.casters, scene, cameras, mapSize_px_);
@@ -36,7 +36,8 @@ void HardShadowMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
 }
 
 void HardShadowMap::inspect(InspectionVisitor& visitor) const {
-    visitor.texture({.name = "depth map", .texture = depthMap_.texture().name(), .layers = depthMap_.count()});
+    visitor.texture(
+        {.name = "depth map", .texture = depthMap_.texture().name(), .layers = depthMap_.count()});
 }
 
 Statistics HardShadowMap::statistics() const {

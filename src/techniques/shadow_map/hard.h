@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Casting curved shadows on curved surfaces (L. Williams, SIGGRAPH 1978): a point is lit if it is the nearest one that
-// the light's centre sees. No penumbra; the yardstick of cost for everything else.
+// Casting curved shadows on curved surfaces (L. Williams, SIGGRAPH 1978): a point is lit if it is the nearest
+// one that the light's centre sees. No penumbra; the yardstick of cost for everything else.
 #pragma once
 
 #include "penumbra/technique.h"

@@ -10,10 +10,11 @@ using HardShadowMapTest = TechniqueTest;
 constexpr PictureSize size{400, 300};
 
 TEST_F(HardShadowMapTest, EqualsTheReferenceForALightOfSizeZero) {
-    for (const char* name :
-         {"primitives", "torus", "sphere", "two-boxes", "overlapping-blockers", "cylinder", "columns", "moving"}) {
+    for (const char* name : {"primitives", "torus", "sphere", "two-boxes", "overlapping-blockers", "cylinder",
+                             "columns", "moving"}) {
         const Scene scene = withLight(makeBuiltin(name), shrinkToPoint);
-        EXPECT_LE(shareOfDifferentPixels(truth(scene, size), render("hard", scene, size), 0.5f), 0.01) << name;
+        EXPECT_LE(shareOfDifferentPixels(truth(scene, size), render("hard", scene, size), 0.5f), 0.01)
+            << name;
     }
 }
 
@@ -23,7 +24,8 @@ TEST_F(HardShadowMapTest, EqualsTheReferenceForEveryShapeOfLight) {
             light.shape.shape = shape;
             shrinkToPoint(light);
         });
-        EXPECT_LE(shareOfDifferentPixels(truth(scene, size), render("hard", scene, size), 0.5f), 0.01) << int(shape);
+        EXPECT_LE(shareOfDifferentPixels(truth(scene, size), render("hard", scene, size), 0.5f), 0.01)
+            << int(shape);
     }
 }
 
@@ -50,13 +52,14 @@ TEST_F(HardShadowMapTest, FinerMapsAreNearerToTheTruth) {
 }
 
 TEST_F(HardShadowMapTest, HolesOfAlphaMasksLetLightThrough) {
-    // Half of the window's blockers' material is cut away by its texture's alpha, on either side of a straight line.
+    // Half of the window's blockers' material is cut away by its texture's alpha, on either side of a
+    // straight line.
     Scene scene = withLight(makeBuiltin("two-boxes"), shrinkToPoint);
-    Picture stripes{.name = "stripes", .width_px = 2, .height_px = 1, .rgba = {255, 255, 255, 255, 255, 255, 255, 0}};
+    Picture stripes{
+        .name = "stripes", .width_px = 2, .height_px = 1, .rgba = {255, 255, 255, 255, 255, 255, 255, 0}};
     scene.pictures.push_back(stripes);
-    scene.textures.push_back({.picture = int(scene.pictures.size()) - 1,
-                              .minFilter = 0x2600,
-                              .magFilter = 0x2600});  // GL_NEAREST
+    scene.textures.push_back(
+        {.picture = int(scene.pictures.size()) - 1, .minFilter = 0x2600, .magFilter = 0x2600});  // GL_NEAREST
     for (Mesh& mesh : scene.meshes) {
         mesh.uvs.clear();
         for (const glm::vec3& p : mesh.positions) mesh.uvs.emplace_back(p.x * 2, 0.5f);

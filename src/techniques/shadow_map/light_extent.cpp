@@ -8,10 +8,13 @@ namespace penumbra {
 
 glm::dvec2 lightExtent(const AreaLight& light) {
     switch (light.shape) {
-        case LightShape::rect: return 0.5 * glm::dvec2(light.width_m, light.height_m);
+        case LightShape::rect:
+            return 0.5 * glm::dvec2(light.width_m, light.height_m);
         case LightShape::disk:
-        case LightShape::sphere: return glm::dvec2(light.radius_m);
-        case LightShape::distant: break;
+        case LightShape::sphere:
+            return glm::dvec2(light.radius_m);
+        case LightShape::distant:
+            break;
     }
     constexpr double widest_rad = 1.52;
     return glm::dvec2(std::tan(std::min(0.5 * double(light.angle_rad), widest_rad)));

@@ -19,7 +19,8 @@ NearestTiles::NearestTiles(Device& device)
 void NearestTiles::build(const DepthMap& depthMap, LightShape shape) {
     const std::size_t maps = std::size_t(std::max(1, depthMap.count()));
     const std::size_t size_bytes = maps * tilesPerMap * sizeof(float);
-    if (tiles_.name() == 0 || tiles_.size_bytes() < size_bytes) tiles_ = gl::Buffer(size_bytes, "nearest tiles");
+    if (tiles_.name() == 0 || tiles_.size_bytes() < size_bytes)
+        tiles_ = gl::Buffer(size_bytes, "nearest tiles");
     tile_px_ = (depthMap.texture().width_px() + tilesAcross - 1) / tilesAcross;
     if (depthMap.count() == 0) return;
 

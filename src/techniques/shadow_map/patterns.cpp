@@ -37,7 +37,8 @@ std::vector<glm::vec2> poissonDisk(int count) {
             if (glm::dot(candidate, candidate) > 1) continue;
             ++candidates;
             float distance = std::numeric_limits<float>::infinity();
-            for (const glm::vec2& point : points) distance = std::min(distance, glm::distance(point, candidate));
+            for (const glm::vec2& point : points)
+                distance = std::min(distance, glm::distance(point, candidate));
             if (distance > bestDistance) {
                 bestDistance = distance;
                 best = candidate;
@@ -60,7 +61,8 @@ std::vector<glm::vec2> squarePattern(int count) {
 
 std::vector<glm::vec2> diskPattern(int count) {
     std::vector<glm::vec2> points;
-    for (int i = 0; i < count; ++i) points.push_back(float(std::sqrt((i + 0.5) / count)) * goldenDirection(i));
+    for (int i = 0; i < count; ++i)
+        points.push_back(float(std::sqrt((i + 0.5) / count)) * goldenDirection(i));
     return points;
 }
 

@@ -22,23 +22,29 @@ Pcf::Pcf(Device& device)
 }
 
 void Pcf::describe(ParameterVisitor& visitor) {
-    visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"}, mapSize_px_,
-                    {16, 16384});
-    visitor.choice({.name = "kernel",
-                    .help = "2x2: bilinear; 3x3, 5x5: tents of that width; bicubic: a B-spline over 4x4; poisson: a "
-                            "disk of 16 bilinear taps"},
-                   kernel_, kernelNames);
-    visitor.real({.name = "radius", .unit = "texels", .help = "of the Poisson disk; the other kernels have their own"},
-                 radius_px_, {0, 64});
+    visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"},
+                    mapSize_px_, {16, 16384});
+    visitor.choice(
+        {.name = "kernel",
+         .help = "2x2: bilinear; 3x3, 5x5: tents of that width; bicubic: a B-spline over 4x4; poisson: a "
+                 "disk of 16 bilinear taps"},
+        kernel_, kernelNames);
+    visitor.real(
+        {.name = "radius", .unit = "texels", .help = "of the Poisson disk; the other kernels have their own"},
+        radius_px_, {0, 64});
 }
 
 double Pcf::reach_px() const {
     switch (Kernel(kernel_)) {
-        case Kernel::bilinear: return 1;
+        case Kernel::bilinear:
+            return 1;
         case Kernel::tent3:
-        case Kernel::bicubic: return 2;
-        case Kernel::tent5: return 3;
-        case Kernel::poisson: break;
+        case Kernel::bicubic:
+            return 2;
+        case Kernel::tent5:
+            return 3;
+        case Kernel::poisson:
+            break;
     }
     return radius_px_ + 1.0;
 }
@@ -72,7 +78,8 @@ void Pcf::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
 }
 
 void Pcf::inspect(InspectionVisitor& visitor) const {
-    visitor.texture({.name = "depth map", .texture = depthMap_.texture().name(), .layers = depthMap_.count()});
+    visitor.texture(
+        {.name = "depth map", .texture = depthMap_.texture().name(), .layers = depthMap_.count()});
 }
 
 Statistics Pcf::statistics() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rendering antialiased shadows with depth maps (W. T. Reeves, D. H. Salesin, R. L. Cook, SIGGRAPH 1987): percentage-
-// closer filtering with kernels of fixed size in the map, which soften the edge but know nothing of the light's size.
+// Rendering antialiased shadows with depth maps (W. T. Reeves, D. H. Salesin, R. L. Cook, SIGGRAPH 1987):
+// percentage- closer filtering with kernels of fixed size in the map, which soften the edge but know nothing
+// of the light's size.
 #pragma once
 
 #include "penumbra/technique.h"

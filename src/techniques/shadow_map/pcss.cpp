@@ -22,7 +22,9 @@ AreaLight scaled(AreaLight light, float scale) {
     return light;
 }
 
-bool hasSize(const AreaLight& light) { return lightExtent(light) != glm::dvec2(0); }
+bool hasSize(const AreaLight& light) {
+    return lightExtent(light) != glm::dvec2(0);
+}
 
 }  // namespace
 
@@ -35,19 +37,22 @@ Pcss::Pcss(Device& device)
       filterPattern_("pcss/filter pattern") {}
 
 void Pcss::describe(ParameterVisitor& visitor) {
-    visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"}, mapSize_px_,
-                    {16, 16384});
-    visitor.integer({.name = "search_samples", .help = "looks into the map to find blockers"}, searchSamples_, {1, 1024});
+    visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"},
+                    mapSize_px_, {16, 16384});
+    visitor.integer({.name = "search_samples", .help = "looks into the map to find blockers"}, searchSamples_,
+                    {1, 1024});
     visitor.integer({.name = "filter_samples", .help = "looks into the map to average over the penumbra"},
                     filterSamples_, {1, 1024});
-    visitor.choice({.name = "pattern", .help = "fixed: no noise; rotated: another one at each pixel, for few samples"},
-                   pattern_, patternNames);
+    visitor.choice(
+        {.name = "pattern", .help = "fixed: no noise; rotated: another one at each pixel, for few samples"},
+        pattern_, patternNames);
     visitor.choice({.name = "blocker_mean",
                     .help = "of the blockers' distances; arithmetic is the sketch's, harmonic leaks less"},
                    blockerMean_, blockerMeanNames);
-    visitor.real({.name = "light_scale",
-                  .help = "times the light's size, the sketch's w_Light; 1 is what the light's size and distance say"},
-                 lightScale_, {0, 100});
+    visitor.real(
+        {.name = "light_scale",
+         .help = "times the light's size, the sketch's w_Light; 1 is what the light's size and distance say"},
+        lightScale_, {0, 100});
 }
 
 PcssConstants Pcss::constantsOf(const AreaLight& light) const {
@@ -58,7 +63,8 @@ PcssConstants Pcss::constantsOf(const AreaLight& light) const {
     return {
         .extent = glm::dvec4(extent, 1 - cosine, 0),
         .light = {int(light.shape), isOneSided(light), light.radianceTexture != 0, 0},
-        .samples = {soft ? searchSamples_ : 1, soft ? filterSamples_ : 1, Pattern(pattern_) == Pattern::rotated,
+        .samples = {soft ? searchSamples_ : 1, soft ? filterSamples_ : 1,
+                    Pattern(pattern_) == Pattern::rotated,
                     BlockerMean(blockerMean_) == BlockerMean::harmonic},
         .maps = {depthMap_.count(), nearestTiles_.tile_px(), 0, 0},
     };
@@ -111,7 +117,8 @@ void Pcss::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
 }
 
 void Pcss::inspect(InspectionVisitor& visitor) const {
-    visitor.texture({.name = "depth map", .texture = depthMap_.texture().name(), .layers = depthMap_.count()});
+    visitor.texture(
+        {.name = "depth map", .texture = depthMap_.texture().name(), .layers = depthMap_.count()});
 }
 
 Statistics Pcss::statistics() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Percentage-closer soft shadows (R. Fernando, SIGGRAPH 2005 sketches): look for blockers around the receiver's place in
-// the map, take from their mean depth how wide the penumbra is, and filter over that width.
+// Percentage-closer soft shadows (R. Fernando, SIGGRAPH 2005 sketches): look for blockers around the
+// receiver's place in the map, take from their mean depth how wide the penumbra is, and filter over that
+// width.
 #pragma once
 
 #include "penumbra/technique.h"

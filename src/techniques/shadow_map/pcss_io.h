@@ -11,9 +11,11 @@ using glm::vec4;
 #endif
 
 struct PcssConstants {
-    vec4 extent;    // xy: half width and height, metres (distant: tangents); z: 1 - cos of a distant light's half angle
+    vec4 extent;    // xy: half width and height, metres (distant: tangents); z: 1 - cos of a distant light's
+                    // half angle
     ivec4 light;    // x: LightShape; y: 1 if one-sided; z: 1 if textured
-    ivec4 samples;  // x: of the search; y: of the filter; z: 1 if rotated from pixel to pixel; w: 1 for a harmonic mean
+    ivec4 samples;  // x: of the search; y: of the filter; z: 1 if rotated from pixel to pixel; w: 1 for a
+                    // harmonic mean
     ivec4 maps;     // x: how many; y: width of a tile of theirs (nearest_tiles.glsl), in texels
 };
 

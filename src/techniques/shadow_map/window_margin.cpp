@@ -35,8 +35,8 @@ void widenByTexels(std::span<LightCamera> cameras, double texels, int mapSize_px
 }
 
 void widenForLight(std::span<LightCamera> cameras, const AreaLight& light, const LightSpaceScene& scene) {
-    // A blocker at the distance d beside the segment from the centre to a receiver, at most the light's radius times
-    // 1 - d / D beside it, is seen that much over d away from the receiver: at most radius / d.
+    // A blocker at the distance d beside the segment from the centre to a receiver, at most the light's
+    // radius times 1 - d / D beside it, is seen that much over d away from the receiver: at most radius / d.
     double nearest_m = std::numeric_limits<double>::infinity();
     for (const BoxCorners& box : scene.boxes) {
         if (!std::isnan(box[0].x)) nearest_m = std::min(nearest_m, distanceTo(box));

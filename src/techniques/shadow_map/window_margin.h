@@ -8,12 +8,12 @@
 
 namespace penumbra {
 
-/// Adds `texels` on each side of each window. Where cameras are a cube's faces, their maps then overlap by as much, and
-/// a kernel near a face's edge finds all its texels in the face it started in.
+/// Adds `texels` on each side of each window. Where cameras are a cube's faces, their maps then overlap by as
+/// much, and a kernel near a face's edge finds all its texels in the face it started in.
 void widenByTexels(std::span<LightCamera> cameras, double texels, int mapSize_px);
 
-/// Adds what blockers between the receivers and any part of the light can reach beyond the windows, going by the
-/// casters' boxes, but at most half a window on each side.
+/// Adds what blockers between the receivers and any part of the light can reach beyond the windows, going by
+/// the casters' boxes, but at most half a window on each side.
 void widenForLight(std::span<LightCamera> cameras, const AreaLight& light, const LightSpaceScene& scene);
 
 }  // namespace penumbra
