@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace penumbra {
 namespace {
@@ -13,21 +14,16 @@ constexpr double widestMargin = 1.0 / 6;  // of the window
 /// A blocker that reaches the camera's plane makes it as wide as is allowed.
 double penumbraReach(const AreaLight& light, const LightSpaceScene& scene, const LightCamera& camera,
                      double window) {
-    double nearest = camera.orthographic ? camera.far_m : std::numeric_limits<double>::infinity();
-    for (const BoxCorners& box : scene.boxes) {
-        if (!camera.mightSee(box)) continue;
-        for (const glm::dvec3& corner : box) {
-            nearest = std::min(nearest, (camera.faceFromLight * glm::dvec4(corner, 1)).z);
-        }
-    }
+    const double nearest = nearestCaster_m(scene, std::span(&camera, 1));
     double reach = 0;
     if (camera.orthographic) {
-        reach = std::tan(0.5 * std::min(double(light.angle_rad), 3.0)) * (camera.far_m - nearest);
+        reach =
+            std::tan(0.5 * std::min(double(light.angle_rad), 3.0)) * std::max(camera.far_m - nearest, 0.0);
     } else {
         const double extent = light.shape == LightShape::rect
                                   ? 0.5 * std::hypot(light.width_m, light.height_m)
                                   : double(light.radius_m);
-        reach = extent == 0 ? 0 : nearest <= 0 ? window : extent / nearest;
+        reach = extent == 0 ? 0 : extent / nearest;
     }
     return std::min(reach, widestMargin * window);
 }
@@ -67,6 +63,20 @@ std::vector<LightCamera> fitMapCameras(const AreaLight& light, const LightSpaceS
         camera.windowMax = center + half;
     }
     return cameras;
+}
+
+double nearestCaster_m(const LightSpaceScene& scene, std::span<const LightCamera> cameras) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const LightCamera& camera : cameras) {
+        for (const BoxCorners& box : scene.boxes) {
+            if (!camera.mightSee(box)) continue;
+            for (const glm::dvec3& corner : box) {
+                const double depth = (camera.faceFromLight * glm::dvec4(corner, 1)).z;
+                nearest = std::min(nearest, camera.orthographic ? depth : std::max(depth, 0.0));
+            }
+        }
+    }
+    return nearest;
 }
 
 void appendMapKey(std::vector<double>& key, const ShadowInputs& inputs, const LightSpaceScene& scene,

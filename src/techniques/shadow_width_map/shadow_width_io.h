@@ -10,19 +10,18 @@ using glm::ivec4;
 using glm::vec4;
 #endif
 
+// Half axes are in light space: (width / 2, 0, 0) and (0, height / 2, 0) of a rect, (radius, 0, 0) and
+// (0, radius, 0) of a disk, 0 of others.
 struct ShadowWidthConstants {
-    vec4 halfAxisX;  // rect: (width / 2, 0, 0); disk: (radius, 0, 0); else 0. w: sphere: radius; distant:
-                     // tan(angle / 2)
-    vec4
-        halfAxisY;  // rect: (0, height / 2, 0); disk: (0, radius, 0); else 0. w: the light's mean half extent
-    vec4 attenuation;  // x: c_scale, or -1 for the physical one; y: c_bias; z: texels of width to a unit of
-                       // the map
-    ivec4
-        light;  // x: LightShape; y: number of maps; z: 1 if one-sided; w: 1 if there are maps of inner edges
+    vec4 halfAxisX;    // w: a sphere's radius, or tan(angle / 2) of a distant light
+    vec4 halfAxisY;    // w: the light's mean half extent
+    vec4 attenuation;  // x: c_scale, or -1: physical; y: c_bias; z: texels to a unit of width
+    vec4 nearest;  // x: no caster is nearer to a camera's plane, metres; y: the light's largest half extent
+    ivec4 light;   // x: LightShape; y: number of maps; z: 1 if one-sided; w: 1 if inner edges have maps
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ShadowWidthConstants) == 64);
+static_assert(sizeof(ShadowWidthConstants) == 80);
 }  // namespace penumbra
 #endif
 #endif

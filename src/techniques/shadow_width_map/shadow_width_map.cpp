@@ -40,9 +40,10 @@ ShadowWidthMap::ShadowWidthMap(Device& device)
     : depthMap_(device),
       edgeColumns_(device.internals().shaders, shader("edge_columns.comp.glsl")),
       edgeRows_(device.internals().shaders, shader("edge_rows.comp.glsl")),
-      resolveExact_(device.internals().shaders, shader("resolve.comp.glsl")),
+      resolve_(device.internals().shaders, shader("resolve.comp.glsl")),
+      penumbra_(device.internals().shaders, shader("penumbra.comp.glsl")),
       composite_(device.internals().shaders, shader("composite.comp.glsl")),
-      resolvePublished_(device.internals().shaders, shader("resolve_published.comp.glsl")),
+      published_(device.internals().shaders, shader("resolve_published.comp.glsl")),
       constants_("shadow-width constants") {}
 
 void ShadowWidthMap::describe(ParameterVisitor& visitor) {
@@ -101,6 +102,7 @@ void ShadowWidthMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
         mapsMadeFrom_ = std::move(key);
         ++timesMade_;
     }
+    nearest_m_ = float(nearestCaster_m(scene, cameras));
     resolve(inputs, lightFromWorldMatrix, out);
 }
 
@@ -222,33 +224,64 @@ ShadowWidthConstants ShadowWidthMap::constants(const AreaLight& light) const {
         result.halfAxisX.w = halfExtent;
     }
     result.halfAxisY.w = halfExtent;
+    const float largest =
+        light.shape == LightShape::rect ? 0.5f * std::hypot(light.width_m, light.height_m) : halfExtent;
     result.attenuation = {physical_ ? -1 : cScale_, cBias_, 1 / startDifference(startDifference_), 0};
+    result.nearest = {nearest_m_, largest, 0, 0};
     result.light = {int(light.shape), depthMap_.count(), isOneSided(light), hasInnerEdges_};
     return result;
 }
 
 void ShadowWidthMap::resolve(const ShadowInputs& inputs, const glm::dmat4& lightFromWorld,
                              VisibilityBuffer& out) {
-    const auto pass = timers_.pass("shadow-width/resolve");
-    if (mode_ == exact) {
-        resolveExact_.use();
-        edges_.bind(4);
-        widths_.bind(5);
-    } else {
-        if (tabulatedCurve_ != curve_) setAttenuation(curve_ == 0 ? linearAttenuation : smoothAttenuation);
-        resolvePublished_.use();
-        widths_.bind(4);
-        curveTable_.bind(5);
-        glUniform1f(0, background());
-        glUniform1f(1, attenuationTableEnd);
-    }
     view_.bind(inputs.view, lightFromWorld);
     constants_.write(constants(inputs.light));
     constants_.bindUniform(1);
     depthMap_.bind(3, 0);
+    widths_.bind(4);
     bindVisibility(out, 0);
-    gl::dispatchPixels(out.width_px(), out.height_px());
+    if (mode_ == exact) {
+        resolveExact(out);
+    } else {
+        resolvePublished(out);
+    }
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void ShadowWidthMap::resolveExact(const VisibilityBuffer& out) {
+    const std::size_t tiles = std::size_t((out.width_px() + 7) / 8) * std::size_t((out.height_px() + 7) / 8);
+    if (listedTiles_.size_bytes() < tiles * sizeof(GLuint)) {
+        listedTiles_ = gl::Buffer(tiles * sizeof(GLuint), "listed tiles");
+        penumbraTiles_ = gl::Buffer((4 + tiles) * sizeof(GLuint), "penumbra tiles");
+    }
+    const std::array<GLuint, 4> noTiles = {0, 1, 1, 0};
+    penumbraTiles_.write(std::as_bytes(std::span(noTiles)));
+    glClearNamedBufferData(listedTiles_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, penumbraTiles_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, listedTiles_.name());
+    edges_.bind(5);
+    {
+        const auto pass = timers_.pass("shadow-width/resolve");
+        resolve_.use();
+        gl::dispatchPixels(out.width_px(), out.height_px());
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    }
+    {
+        const auto pass = timers_.pass("shadow-width/penumbra");
+        penumbra_.use();
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, penumbraTiles_.name());
+        glDispatchComputeIndirect(0);
+    }
+}
+
+void ShadowWidthMap::resolvePublished(const VisibilityBuffer& out) {
+    const auto pass = timers_.pass("shadow-width/resolve");
+    if (tabulatedCurve_ != curve_) setAttenuation(curve_ == 0 ? linearAttenuation : smoothAttenuation);
+    published_.use();
+    curveTable_.bind(5);
+    glUniform1f(0, background());
+    glUniform1f(1, attenuationTableEnd);
+    gl::dispatchPixels(out.width_px(), out.height_px());
 }
 
 void ShadowWidthMap::inspect(InspectionVisitor& visitor) const {

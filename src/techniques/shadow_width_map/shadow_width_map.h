@@ -38,6 +38,8 @@ class ShadowWidthMap final : public Technique {
     void sweepOnCpu();
     void resolve(const ShadowInputs& inputs, const glm::dmat4& lightFromWorld, VisibilityBuffer& out);
     void allocateWidths(int layers, bool scratch);
+    void resolvePublished(const VisibilityBuffer& out);
+    void resolveExact(const VisibilityBuffer& out);
     ShadowWidthConstants constants(const AreaLight& light) const;
     float background() const { return backFaces_ ? 1.0f : 0.0f; }
 
@@ -53,16 +55,18 @@ class ShadowWidthMap final : public Technique {
     int startDifference_ = 3;
 
     DepthMap depthMap_;
-    gl::Program edgeColumns_, edgeRows_, resolveExact_;
-    gl::Program composite_, resolvePublished_;
+    gl::Program edgeColumns_, edgeRows_, resolve_, penumbra_;
+    gl::Program composite_, published_;
     gl::Texture columns_, edges_, widths_, scratch_, curveTable_;
     int tabulatedCurve_ = -1;
+    gl::Buffer penumbraTiles_, listedTiles_;
     gl::ConstantBuffer<ShadowWidthConstants> constants_;
     ViewBinding view_;
     gl::PassTimers timers_;
 
     bool hasInnerEdges_ = false;  ///< of the maps as they are
     bool backFaces_ = false;
+    float nearest_m_ = 0;  ///< to the planes of the cameras
     std::vector<double> mapsMadeFrom_;
     int timesMade_ = 0;
 };
