@@ -7,24 +7,35 @@
 // cuts the light's footprint { l.xy - t_r l.z } at d / (1 / z_b - 1 / z_r): the footprint is the light as the receiver
 // sees it, sheared into the map's plane. For distant lights the same holds with metres, sd tan(angle / 2).
 
-// Half extents of the footprint along the unit vector `across`, for each of the light's axes; round lights have one.
-vec2 footprintHalfExtents(int camera, MapPoint point, vec2 across) {
-    vec3 covector = vec3(across, lightCameras[camera].depth.z == 1.0 ? 0.0 : -dot(across, point.posFace.xy) / point.posFace.z);
-    if (constants.light.x == distantLight) return vec2(constants.halfAxisX.w, 0.0);
-    if (constants.light.x == sphereLight) return vec2(constants.halfAxisX.w * length(covector), 0.0);
-    vec3 covectorLight = covector * mat3(lightCameras[camera].faceFromLight);
-    vec2 extents = abs(vec2(dot(covectorLight, constants.halfAxisX.xyz), dot(covectorLight, constants.halfAxisY.xyz)));
-    return constants.light.x == diskLight ? vec2(length(extents), 0.0) : extents;
+// The footprint's axes in the camera's plane; of a sphere, the slope of the ray that lengthens it.
+struct Footprint {
+    vec2 axisX, axisY;
+};
+
+Footprint footprintOf(Receiving r) {
+    vec2 slope = r.isOrthographic ? vec2(0.0) : r.point.posFace.xy / r.point.posFace.z;
+    if (constants.light.x >= sphereLight) return Footprint(slope, vec2(0.0));
+    mat3 faceFromLight = mat3(lightCameras[r.camera].faceFromLight);
+    vec3 x = faceFromLight * constants.halfAxisX.xyz, y = faceFromLight * constants.halfAxisY.xyz;
+    return Footprint(x.xy - slope * x.z, y.xy - slope * y.z);
+}
+
+// Half extents along the unit vector `across`, for each of the light's axes; round lights have one.
+vec2 halfExtents(Footprint footprint, vec2 across) {
+    vec2 extents = abs(vec2(dot(across, footprint.axisX), dot(across, footprint.axisY)));
+    if (constants.light.x == rectLight) return extents;
+    if (constants.light.x == diskLight) return vec2(length(extents), 0.0);
+    return vec2(constants.halfAxisX.w * sqrt(1.0 + extents.x * extents.x), 0.0);
 }
 
 // Share of the footprint at places below `edge`.
-float shareBelow(vec2 halfExtents, float edge) {
+float shareBelow(vec2 extents, float edge) {
     if (constants.light.x != rectLight) {
-        float d = clamp(edge / halfExtents.x, -1.0, 1.0);
+        float d = clamp(edge / extents.x, -1.0, 1.0);
         return 0.5 + (asin(d) + d * sqrt(1.0 - d * d)) / 3.14159265;
     }
     // A sheared rectangle has the density of a trapezoid: a box of the wide half extent, blurred by the narrow one.
-    float wide = max(halfExtents.x, halfExtents.y), narrow = min(halfExtents.x, halfExtents.y);
+    float wide = max(extents.x, extents.y), narrow = min(extents.x, extents.y);
     float e = abs(edge);
     float ramp = e / (2.0 * wide);
     float beyond = e - (wide - narrow);

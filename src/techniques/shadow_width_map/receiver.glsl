@@ -26,17 +26,17 @@ bool isFacing(Receiver receiver, bool anyOfLight) {
 
 // The camera in whose window the receiver lies deepest, so that all that surrounds its shadow is in the map too; -1 if
 // none sees it.
-int deepestCamera(vec3 posLight) {
-    int best = -1;
+int deepestCamera(vec3 posLight, out MapPoint best) {
+    int bestCamera = -1;
     float deepest = 0.0;
+    best = MapPoint(vec3(0.0, 0.0, 1.0), vec2(0.0), 0.0);
     for (int camera = 0; camera < constants.light.y; ++camera) {
         MapPoint point = mapPoint(camera, posLight);
-        if (!isInWindow(camera, point)) continue;
-        float depth = min(min(point.uv.x, 1.0 - point.uv.x), min(point.uv.y, 1.0 - point.uv.y));
-        if (depth >= deepest) {
-            deepest = depth;
-            best = camera;
-        }
+        float inside = min(min(point.uv.x, 1.0 - point.uv.x), min(point.uv.y, 1.0 - point.uv.y));
+        if (!isInWindow(camera, point) || inside < deepest) continue;
+        deepest = inside;
+        best = point;
+        bestCamera = camera;
     }
-    return best;
+    return bestCamera;
 }

@@ -9,59 +9,68 @@ layout(binding = 4) uniform sampler2DArray widths_px;
 const float toleranceTexels = 1.0;
 const float tolerancePrecision = 4e-6;
 
+// The camera's constants are copied: software rasterizers read a storage block anew for every pixel and use.
 struct Receiving {
     int camera;
     MapPoint point;
+    vec4 window, depth;  // of the camera
     vec3 normalFace;
-    bool isFacing;  // the light's centre is above the horizon
+    float height_m;      // of the receiver's plane: dot(normalFace, point.posFace)
+    bool isFacing;       // the light's centre is above the horizon
     bool isOrthographic;
     int size_px;
-    float texel;     // tangents or metres
-    float limit_px;  // no penumbra is wider, whatever the blocker's depth
+    float limit_px;      // no penumbra is wider, whatever the blocker's depth
 };
 
-// Where a blocker seen by the texel could hide some of the light: in front of the receiver and above its horizon.
+float depthOf(Receiving r, float stored) {
+    return r.isOrthographic ? r.depth.y - stored * (r.depth.y - r.depth.x) : r.depth.x / stored;
+}
+
+// Whether what a texel sees, if anything, could hide some of the light: it is in front of the receiver's plane, seen from
+// the light's centre; or above the receiver's horizon, where the centre is below it.
 bool isAbove(Receiving r, ivec2 texel, float stored) {
-    if (stored == 0.0) return false;
-    float blocker_m = depthFace_m(r.camera, stored);
-    vec2 uv = (vec2(texel) + 0.5) / float(r.size_px);
+    float blocker_m = depthOf(r, max(stored, 1e-30));
     float tolerance_m = toleranceTexels * r.point.texel_m + tolerancePrecision * length(r.point.posFace);
-    if (r.isFacing) {
-        float plane_m = receiverPlaneDepth_m(r.camera, r.point, r.normalFace, uv, 64.0 * r.point.texel_m);
-        return plane_m - tolerance_m > blocker_m;
-    }
-    LightCameraConstants c = lightCameras[r.camera];
-    vec2 place = uv / c.window.zw + c.window.xy;
-    vec3 posFace = vec3(c.depth.z == 1.0 ? place : place * blocker_m, blocker_m);
-    return dot(r.normalFace, posFace - r.point.posFace) > tolerance_m;
+    vec2 place = (vec2(texel) + 0.5) / (float(r.size_px) * r.window.zw) + r.window.xy;
+    // Where the plane is seen through the texel; near its horizon, within bounds (receiverPlaneDepth_m).
+    float farthest_m = 64.0 * r.point.texel_m;
+    float along = r.isOrthographic ? r.normalFace.z : dot(r.normalFace, vec3(place, 1.0));
+    float above_m = r.isOrthographic ? r.height_m - dot(r.normalFace.xy, place) : r.height_m;
+    float plane_m = above_m * along > 0.0 || r.isOrthographic ? above_m / along : r.point.posFace.z + farthest_m;
+    plane_m = clamp(plane_m, r.point.posFace.z - farthest_m, r.point.posFace.z + farthest_m);
+    float overHorizon_m = along * blocker_m - above_m;
+    return stored > 0.0 && (r.isFacing ? plane_m - tolerance_m > blocker_m : overHorizon_m > tolerance_m);
 }
 
 float spreadOf(Receiving r, float blocker_m) {
     return r.isOrthographic ? r.point.posFace.z - blocker_m : 1.0 / blocker_m - 1.0 / r.point.posFace.z;
 }
 
+// Distances in texels to the nearest outer and inner edge.
 vec2 widthsAt(Receiving r, ivec2 texel) {
     float outer = texelFetch(widths_px, ivec3(texel, r.camera), 0).r;
     if (constants.light.w == 0) return vec2(outer, 2.0 * float(r.size_px));
     return vec2(outer, texelFetch(widths_px, ivec3(texel, r.camera + constants.light.y), 0).r);
 }
 
-// Farther from an edge than this, all texels around a place are on the same side of it.
-const float besideEdge_px = 2.5;
+// Farther from an edge than this, the four texels around a place, at most 1.42 apart, are on the same side of it.
+const float besideEdge_px = 1.5;
 
 // False where no light camera sees the receiver: nothing can shadow it.
 bool startReceiving(Receiver receiver, out Receiving r) {
-    r.camera = deepestCamera(receiver.posLight);
+    r.camera = deepestCamera(receiver.posLight, r.point);
     if (r.camera < 0) return false;
+    LightCameraConstants camera = lightCameras[r.camera];
+    r.window = camera.window;
+    r.depth = camera.depth;
+    r.normalFace = mat3(camera.faceFromLight) * receiver.normalLight;
+    r.height_m = dot(r.normalFace, r.point.posFace);
     r.isFacing = isFacing(receiver, false);
-    r.point = mapPoint(r.camera, receiver.posLight);
-    r.normalFace = mat3(lightCameras[r.camera].faceFromLight) * receiver.normalLight;
+    r.isOrthographic = camera.depth.z == 1.0;
     r.size_px = textureSize(depthMaps, 0).x;
-    r.isOrthographic = lightCameras[r.camera].depth.z == 1.0;
-    r.texel = lightCameras[r.camera].depth.w;
     // The shear of the footprint lengthens it by no more than the ray is longer than its depth.
     float longer = r.isOrthographic ? 1.0 : length(r.point.posFace) / r.point.posFace.z;
     float widest = constants.nearest.y * longer * max(spreadOf(r, constants.nearest.x), 0.0);
-    r.limit_px = min(widest / r.texel, float(r.size_px));
+    r.limit_px = min(widest / r.depth.w, float(r.size_px));
     return true;
 }

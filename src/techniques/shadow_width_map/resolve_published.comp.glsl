@@ -18,9 +18,9 @@ float blockerDepth_m(int camera, vec3 receiverFace, float stored) {
 
 float seenBy(Receiver receiver) {
     if (!isFacing(receiver, false)) return 0.0;
-    int camera = deepestCamera(receiver.posLight);
+    MapPoint point;
+    int camera = deepestCamera(receiver.posLight, point);
     if (camera < 0) return 1.0;
-    MapPoint point = mapPoint(camera, receiver.posLight);
     float size_px = float(textureSize(depthMaps, 0).x);
 
     ivec2 corner = ivec2(floor(point.uv * size_px - 0.5));
