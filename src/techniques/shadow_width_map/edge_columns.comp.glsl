@@ -30,7 +30,7 @@ void main() {
     bool orthographic = depth.z == 1.0;
     float tolerance = jumpTexels * depth.w;
 
-    uvec2 nearest = uvec2(noEdgeInColumn);
+    uvec2 nearest = uvec2(0u);
     float above = stored(texel, size_px), here = above;
     for (int row = 0; row < size_px; ++row) {
         texel.y = row;
@@ -39,23 +39,21 @@ void main() {
             vec4 around = vec4(stored(texel + ivec3(1, 0, 0), size_px), stored(texel - ivec3(1, 0, 0), size_px), below, above);
             float least = min(min(around.x, around.y), min(around.z, around.w));
             if (least == 0.0) {
-                int direction = around.x == 0.0 ? 0 : around.y == 0.0 ? 1 : around.z == 0.0 ? 2 : 3;
-                nearest.x = packInColumn(row, direction);
+                uvec4 sides = mix(uvec4(0u), uvec4(1u, 2u, 4u, 8u), equal(around, vec4(0.0)));
+                nearest.x = packInColumn(row, sides.x | sides.y | sides.z | sides.w);
             }
             float jump = orthographic ? tolerance / (depth.y - depth.x) : tolerance * here;
             if (withInnerEdges && here - least > jump) {
-                float largest = jump;
+                uint sides = 0u;
                 for (int direction = 0; direction < 4; ++direction) {
                     float there = around[direction];
-                    if (there == 0.0 || here - there <= largest) continue;
+                    if (there == 0.0 || here - there <= jump) continue;
                     float before = around[direction ^ 1];
                     float beyond = stored(texel + 2 * ivec3(edgeDirections[direction], 0), size_px);
                     float bend = min(2.0 * here - before - there, here + beyond - 2.0 * there);
-                    if (min(bend, here - there) > largest) {
-                        largest = min(bend, here - there);
-                        nearest.y = packInColumn(row, direction);
-                    }
+                    if (bend > jump) sides |= 1u << direction;
                 }
+                if (sides != 0u) nearest.y = packInColumn(row, sides);
             }
         }
         imageStore(columns, texel, uvec4(nearest, 0u, 0u));
@@ -66,9 +64,9 @@ void main() {
         texel.y = row;
         uvec2 own = imageLoad(columns, texel).rg;
         for (int kind = 0; kind < 2; ++kind) {
-            if (nearest[kind] == noEdgeInColumn) nearest[kind] = own[kind];
-            if (own[kind] == noEdgeInColumn) continue;
-            if (row - rowInColumn(own[kind]) <= abs(rowInColumn(nearest[kind]) - row)) nearest[kind] = own[kind];
+            if (!isEdgeInColumn(own[kind])) continue;
+            bool isNearer = row - rowInColumn(own[kind]) <= abs(rowInColumn(nearest[kind]) - row);
+            if (isNearer || !isEdgeInColumn(nearest[kind])) nearest[kind] = own[kind];
         }
         if (nearest != own) imageStore(columns, texel, uvec4(nearest, 0u, 0u));
     }

@@ -41,9 +41,9 @@ void main() {
     if (texel.y >= size_px) return;
 
     int top = -1;
-    Parabola p = Parabola(0, 0, 0, noEdgeInColumn);
+    Parabola p = Parabola(0, 0, 0, 0u);
     for (int column = 0; column < size_px; ++column) {
-        if (inColumnAt(ivec3(column, texel.yz)) == noEdgeInColumn) continue;
+        if (!isEdgeInColumn(inColumnAt(ivec3(column, texel.yz)))) continue;
         Parabola next = parabolaAt(texel, column, 0);
         while (top >= 0 && valueAt(p, p.begin) > valueAt(next, p.begin)) {
             if (--top < 0) break;
@@ -62,11 +62,12 @@ void main() {
 
     for (int column = size_px - 1; column >= 0; --column) {
         texel.x = column;
-        uint edge = noEdge;
+        uint edge = 0u;
         float width_px = float(2 * size_px);
         if (top >= 0) {
             edge = packEdge(p.column, p.inColumn);
-            width_px = distance(edgePlace(edge), vec2(texel.xy) + 0.5);
+            vec2 place_px = vec2(texel.xy) + 0.5;
+            width_px = distance(middleOf(edge, nearestSide(edge, place_px)), place_px);
             if (column == p.begin && --top >= 0) {
                 uint entry = imageLoad(edges, ivec3(top, texel.yz)).r;
                 p = parabolaAt(texel, int(entry & 0xffffu), int(entry >> 16));

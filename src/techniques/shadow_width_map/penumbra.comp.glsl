@@ -24,8 +24,9 @@ Division divide(Receiving r, Footprint footprint, uint edge, vec2 place_px, bool
     float stored = texelFetch(depthMaps, ivec3(texel, r.camera), 0).r;
     float blocker_m = depthOf(r, max(stored, 1e-30));
     if (blocker_m >= r.point.posFace.z || !isAbove(r, texel, stored)) return division;
+    ivec2 side = nearestSide(edge, place_px);
     if (isInner) {
-        ivec2 behind = texel + edgeDirection(edge);
+        ivec2 behind = texel + side;
         float storedBehind = texelFetch(depthMaps, ivec3(behind, r.camera), 0).r;
         if (isAbove(r, behind, storedBehind)) {
             division.deepest_m = depthOf(r, storedBehind);
@@ -33,7 +34,7 @@ Division divide(Receiving r, Footprint footprint, uint edge, vec2 place_px, bool
         }
     }
     division.isEdge = true;
-    vec2 way_px = edgePlace(edge) - place_px;
+    vec2 way_px = middleOf(edge, side) - place_px;
     float way = max(length(way_px), 1e-3);
     vec2 extents = halfExtents(footprint, way_px / way);
     // In the shadow of several blockers, the deepest is hardest to see past.

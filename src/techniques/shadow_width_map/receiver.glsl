@@ -21,7 +21,9 @@ bool isFacing(Receiver receiver, bool anyOfLight) {
         float x = dot(normal, constants.halfAxisX.xyz), y = dot(normal, constants.halfAxisY.xyz);
         height_m += constants.light.x == rectLight ? abs(x) + abs(y) : length(vec2(x, y));
     }
-    return height_m > 0.0 && (constants.light.z == 0 || receiver.posLight.z < 0.0);
+    // Nothing but a line of the light above the horizon is nothing.
+    float least_m = anyOfLight ? 1e-5 * length(receiver.posLight) : 0.0;
+    return height_m > least_m && (constants.light.z == 0 || receiver.posLight.z < 0.0);
 }
 
 // The camera in whose window the receiver lies deepest, so that all that surrounds its shadow is in the map too; -1 if

@@ -52,7 +52,7 @@ void ShadowWidthMap::describe(ParameterVisitor& visitor) {
          .help = "how widths are found: exactly, or as published by compositing or by sweeps on the CPU"},
         mode_, modeNames);
     visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each map"},
-                    mapSize_px_, {16, 8192});
+                    mapSize_px_, {16, 4096});
     visitor.boolean(
         {.name = "inner_edges",
          .help = "exact mode: penumbrae on casters too, from edges where casters overlap in the map"},

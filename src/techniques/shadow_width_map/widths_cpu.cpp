@@ -70,20 +70,28 @@ std::vector<float> sweepShadowWidths(std::span<const bool> blocked, int size_px,
     return widths;
 }
 
-std::vector<float> exactDistances(std::span<const bool> blocked, int size_px) {
+std::vector<float> exactShadowWidths(std::span<const bool> blocked, int size_px) {
     const auto size = std::size_t(size_px);
-    std::vector<float> distances(size * size);
-    for (const bool kind : {false, true}) {
-        std::vector<double> squares(size * size);
-        std::ranges::transform(blocked, squares.begin(), [&](bool b) { return b == kind ? 0.0 : infinity; });
-        LineTransform line(size_px);
-        for (std::size_t x = 0; x < size; ++x) line.apply(squares, x, size);
-        for (std::size_t y = 0; y < size; ++y) line.apply(squares, y * size, 1);
-        for (std::size_t i = 0; i < squares.size(); ++i) {
-            if (blocked[i] != kind) distances[i] = float(std::sqrt(squares[i]));
+    // On a grid of half texels, a texel's centre is at odd places, and the middles of its sides beside that.
+    const std::size_t halves = 2 * size + 1;
+    std::vector<double> squares(halves * halves, infinity);
+    for (std::size_t y = 0; y < size; ++y) {
+        for (std::size_t x = 0; x < size; ++x) {
+            const bool own = blocked[y * size + x];
+            if (x + 1 < size && blocked[y * size + x + 1] != own)
+                squares[(2 * y + 1) * halves + 2 * x + 2] = 0;
+            if (y + 1 < size && blocked[(y + 1) * size + x] != own)
+                squares[(2 * y + 2) * halves + 2 * x + 1] = 0;
         }
     }
-    return distances;
+    LineTransform line(2 * size_px + 1);
+    for (std::size_t x = 0; x < halves; ++x) line.apply(squares, x, halves);
+    for (std::size_t y = 1; y < halves; y += 2) line.apply(squares, y * halves, 1);
+    std::vector<float> widths(size * size);
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+        widths[i] = float(0.5 * std::sqrt(squares[(2 * (i / size) + 1) * halves + 2 * (i % size) + 1]));
+    }
+    return widths;
 }
 
 }  // namespace penumbra

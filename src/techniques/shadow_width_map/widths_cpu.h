@@ -13,8 +13,9 @@ namespace penumbra {
 /// nearest texel that is not blocked, `difference` a step, at most 1.
 std::vector<float> sweepShadowWidths(std::span<const bool> blocked, int size_px, float difference);
 
-/// The Euclidean distance in texels from the centre of each texel to that of the nearest texel of the other
-/// kind; infinity where there is none (Felzenszwalb and Huttenlocher 2012, in doubles).
-std::vector<float> exactDistances(std::span<const bool> blocked, int size_px);
+/// The Euclidean distance in texels from the centre of each texel to the silhouette: to the middle of the
+/// nearest side between a texel that is blocked and one that is not; infinity where there is none. In
+/// doubles, by Felzenszwalb and Huttenlocher 2012.
+std::vector<float> exactShadowWidths(std::span<const bool> blocked, int size_px);
 
 }  // namespace penumbra
