@@ -14,7 +14,14 @@ constexpr double widestMargin = 1.0 / 6;  // of the window
 /// A blocker that reaches the camera's plane makes it as wide as is allowed.
 double penumbraReach(const AreaLight& light, const LightSpaceScene& scene, const LightCamera& camera,
                      double window) {
-    const double nearest = nearestCaster_m(scene, std::span(&camera, 1));
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const BoxCorners& box : scene.boxes) {
+        if (!camera.mightSee(box)) continue;
+        for (const glm::dvec3& corner : box) {
+            const double depth = (camera.faceFromLight * glm::dvec4(corner, 1)).z;
+            nearest = std::min(nearest, camera.orthographic ? depth : std::max(depth, 0.0));
+        }
+    }
     double reach = 0;
     if (camera.orthographic) {
         reach =
@@ -63,20 +70,6 @@ std::vector<LightCamera> fitMapCameras(const AreaLight& light, const LightSpaceS
         camera.windowMax = center + half;
     }
     return cameras;
-}
-
-double nearestCaster_m(const LightSpaceScene& scene, std::span<const LightCamera> cameras) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const LightCamera& camera : cameras) {
-        for (const BoxCorners& box : scene.boxes) {
-            if (!camera.mightSee(box)) continue;
-            for (const glm::dvec3& corner : box) {
-                const double depth = (camera.faceFromLight * glm::dvec4(corner, 1)).z;
-                nearest = std::min(nearest, camera.orthographic ? depth : std::max(depth, 0.0));
-            }
-        }
-    }
-    return nearest;
 }
 
 void appendMapKey(std::vector<double>& key, const ShadowInputs& inputs, const LightSpaceScene& scene,

@@ -12,10 +12,6 @@ namespace penumbra {
 /// sixth of the window).
 std::vector<LightCamera> fitMapCameras(const AreaLight& light, const LightSpaceScene& scene, int mapSize_px);
 
-/// The least depth at which any camera may see a caster; at least 0 in perspective. Infinite if none sees
-/// any.
-double nearestCaster_m(const LightSpaceScene& scene, std::span<const LightCamera> cameras);
-
 /// Appends everything that the maps depend on but their parameters: equal numbers, equal maps.
 void appendMapKey(std::vector<double>& key, const ShadowInputs& inputs, const LightSpaceScene& scene,
                   std::span<const LightCamera> cameras);

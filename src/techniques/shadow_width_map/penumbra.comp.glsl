@@ -52,7 +52,7 @@ float seenFromPlace(Receiving r, Footprint footprint, ivec2 texel, vec2 place_px
     float own_m = isBlocked ? depthOf(r, stored) : 0.0;
     float seen = isBlocked ? 0.0 : 1.0;
     for (int kind = constants.light.w; kind >= 0; --kind) {
-        if (width_px[kind] > r.limit_px) continue;
+        if (width_px[kind] > float(r.size_px)) continue;  // there is no edge
         uint edge = texelFetch(edges, ivec3(texel, r.camera + kind * constants.light.y), 0).r;
         Division division = divide(r, footprint, edge, place_px, isBlocked, own_m, kind == 1);
         if (division.isEdge) seen = isBlocked ? max(seen, division.seen) : min(seen, division.seen);

@@ -19,7 +19,7 @@ struct Receiving {
     bool isFacing;       // the light's centre is above the horizon
     bool isOrthographic;
     int size_px;
-    float limit_px;      // no penumbra is wider, whatever the blocker's depth
+    float widest;        // half extent of the light's footprint, at most
 };
 
 float depthOf(Receiving r, float stored) {
@@ -46,6 +46,9 @@ float spreadOf(Receiving r, float blocker_m) {
     return r.isOrthographic ? r.point.posFace.z - blocker_m : 1.0 / blocker_m - 1.0 / r.point.posFace.z;
 }
 
+// No penumbra of a blocker at this depth reaches farther than so many texels from its edge. Negative behind the receiver.
+float reach_px(Receiving r, float blocker_m) { return r.widest * spreadOf(r, blocker_m) / r.depth.w; }
+
 // Distances in texels to the nearest outer and inner edge.
 vec2 widthsAt(Receiving r, ivec2 texel) {
     float outer = texelFetch(widths_px, ivec3(texel, r.camera), 0).r;
@@ -69,8 +72,6 @@ bool startReceiving(Receiver receiver, out Receiving r) {
     r.isOrthographic = camera.depth.z == 1.0;
     r.size_px = textureSize(depthMaps, 0).x;
     // The shear of the footprint lengthens it by no more than the ray is longer than its depth.
-    float longer = r.isOrthographic ? 1.0 : length(r.point.posFace) / r.point.posFace.z;
-    float widest = constants.nearest.y * longer * max(spreadOf(r, constants.nearest.x), 0.0);
-    r.limit_px = min(widest / r.depth.w, float(r.size_px));
+    r.widest = constants.extent.x * (r.isOrthographic ? 1.0 : length(r.point.posFace) / r.point.posFace.z);
     return true;
 }

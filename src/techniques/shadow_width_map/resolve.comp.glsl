@@ -6,7 +6,10 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/shadow_width_map/receiving.glsl"
+#include "src/techniques/shadow_width_map/nearest_edge.glsl"
 #include "src/techniques/shadow_width_map/penumbra_tiles.glsl"
+
+layout(binding = 5) uniform usampler2DArray edges;
 
 // Negative: in a penumbra, perhaps.
 float seenBy(Receiver receiver) {
@@ -15,7 +18,13 @@ float seenBy(Receiver receiver) {
     if (!startReceiving(receiver, r)) return 1.0;
     ivec2 texel = ivec2(r.point.uv * float(r.size_px));
     vec2 width_px = widthsAt(r, texel);
-    if (constants.nearest.y > 0.0 && min(width_px.x, width_px.y) <= max(r.limit_px, besideEdge_px)) return -1.0;
+    bool isNear = min(width_px.x, width_px.y) <= besideEdge_px;
+    for (int kind = 0; kind <= constants.light.w; ++kind) {
+        uint edge = texelFetch(edges, ivec3(texel, r.camera + kind * constants.light.y), 0).r;
+        float stored = texelFetch(depthMaps, ivec3(edgeTexel(edge), r.camera), 0).r;
+        isNear = isNear || width_px[kind] < reach_px(r, depthOf(r, max(stored, 1e-30)));
+    }
+    if (isNear && constants.extent.x > 0.0) return -1.0;
     return isAbove(r, texel, texelFetch(depthMaps, ivec3(texel, r.camera), 0).r) ? 0.0 : 1.0;
 }
 

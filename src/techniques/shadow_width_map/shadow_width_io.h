@@ -16,8 +16,8 @@ struct ShadowWidthConstants {
     vec4 halfAxisX;    // w: a sphere's radius, or tan(angle / 2) of a distant light
     vec4 halfAxisY;    // w: the light's mean half extent
     vec4 attenuation;  // x: c_scale, or -1: physical; y: c_bias; z: texels to a unit of width
-    vec4 nearest;  // x: no caster is nearer to a camera's plane, metres; y: the light's largest half extent
-    ivec4 light;   // x: LightShape; y: number of maps; z: 1 if one-sided; w: 1 if inner edges have maps
+    vec4 extent;       // x: the light's largest half extent
+    ivec4 light;       // x: LightShape; y: number of maps; z: 1 if one-sided; w: 1 if inner edges have maps
 };
 
 #ifdef __cplusplus

@@ -102,7 +102,6 @@ void ShadowWidthMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
         mapsMadeFrom_ = std::move(key);
         ++timesMade_;
     }
-    nearest_m_ = float(nearestCaster_m(scene, cameras));
     resolve(inputs, lightFromWorldMatrix, out);
 }
 
@@ -227,7 +226,7 @@ ShadowWidthConstants ShadowWidthMap::constants(const AreaLight& light) const {
     const float largest =
         light.shape == LightShape::rect ? 0.5f * std::hypot(light.width_m, light.height_m) : halfExtent;
     result.attenuation = {physical_ ? -1 : cScale_, cBias_, 1 / startDifference(startDifference_), 0};
-    result.nearest = {nearest_m_, largest, 0, 0};
+    result.extent.x = largest;
     result.light = {int(light.shape), depthMap_.count(), isOneSided(light), hasInnerEdges_};
     return result;
 }

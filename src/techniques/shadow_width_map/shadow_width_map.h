@@ -66,7 +66,6 @@ class ShadowWidthMap final : public Technique {
 
     bool hasInnerEdges_ = false;  ///< of the maps as they are
     bool backFaces_ = false;
-    float nearest_m_ = 0;  ///< to the planes of the cameras
     std::vector<double> mapsMadeFrom_;
     int timesMade_ = 0;
 };
