@@ -63,7 +63,14 @@ TEST_P(Contract, EverythingIsLitWithoutCasters) {
         // 1 where the light's centre is above the horizon, 0 where all of it is below. In between the truth
         // is 1 too, but techniques that look from the centre alone cannot know.
         const LightResult ofCenter = truth(withLight(empty, shrinkToPoint), defaultSize, 2);
-        const LightResult ofLight = truth(empty, defaultSize, 2);
+        // A larger light's, so that no sliver above the horizon escapes the samples.
+        const LightResult ofLight = truth(withLight(empty,
+                                                    [](Light& light) {
+                                                        light.shape.width_m *= 2;
+                                                        light.shape.height_m *= 2;
+                                                        light.shape.radius_m *= 2;
+                                                    }),
+                                          defaultSize, 64);
         for (std::size_t i = 0; i < result.visibility.values.size(); ++i) {
             if (ofCenter.visibility.values[i] == 1) {
                 ASSERT_NEAR(result.visibility.values[i], 1, 1e-6) << "value " << i;
