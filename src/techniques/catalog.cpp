@@ -8,6 +8,7 @@
 #include "src/techniques/shadow_map/hard.h"
 #include "src/techniques/shadow_map/pcf.h"
 #include "src/techniques/shadow_map/pcss.h"
+#include "src/techniques/shadow_width_map/shadow_width_map.h"
 
 namespace penumbra {
 namespace {
@@ -26,6 +27,8 @@ constexpr std::array entries = {
     Entry{{"hard", "one shadow map from the light's centre: no penumbra (Williams 1978)", 0.30f}, make<HardShadowMap>},
     Entry{{"pcf", "a shadow map filtered over a fixed kernel (Reeves et al. 1987)", 0.30f}, make<Pcf>},
     Entry{{"pcss", "blocker search, then a filter as wide as the penumbra (Fernando 2005)", 0.02f}, make<Pcss>},
+    Entry{{"shadow-width", "distances to the shadow's border beside one shadow map (Kirsch and Döllner 2003)", 0.03f},
+          make<ShadowWidthMap>},
 };
 
 constexpr auto infos = [] {

@@ -49,7 +49,7 @@ void DepthMap::allocate(int mapSize_px, int layers) {
 }
 
 void DepthMap::render(std::span<const Caster> casters, const LightSpaceScene& scene,
-                      std::span<const LightCamera> cameras, int mapSize_px) {
+                      std::span<const LightCamera> cameras, int mapSize_px, Surface surface) {
     count_ = int(cameras.size());
     allocate(mapSize_px, std::max(1, count_));
 
@@ -72,10 +72,12 @@ void DepthMap::render(std::span<const Caster> casters, const LightSpaceScene& sc
     casters_.write(casterConstants);
     layerLists_.write(layers);
 
+    const bool isNearest = surface == Surface::nearest;
     gl::beginPass(framebuffer_.name(), {.width_px = mapSize_px,
                                         .height_px = mapSize_px,
-                                        .depthTest = GL_GREATER,
+                                        .depthTest = GLenum(isNearest ? GL_GREATER : GL_LESS),
                                         .depthWrite = true,
+                                        .cull = GLenum(isNearest ? GL_NONE : GL_FRONT),
                                         .colorWrite = false});
     glBindVertexArray(vertices_.name());
     cameras_.bind(0);
@@ -89,12 +91,14 @@ void DepthMap::render(std::span<const Caster> casters, const LightSpaceScene& sc
             if (it == end) continue;
             const gl::Program& program = casters[i].alphaMask.texture != 0 ? masked_ : opaque_;
             program.use();
+            // Mirrored, a mesh shows its back as its front.
+            if (!isNearest) glCullFace(glm::determinant(scene.lightFromMesh[i]) < 0 ? GL_BACK : GL_FRONT);
             glUniform1i(0, int(i));
             glUniform1i(1, int(it - layers.begin()));
             draw(casters[i], onlyLayer < 0 ? int(end - begin) : 1);
         }
     };
-    const float background = 0;
+    const float background = isNearest ? 0 : 1;
     if (device_.layerFromVertexShader) {
         glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &background);
         drawAll(-1);

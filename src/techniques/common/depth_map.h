@@ -18,12 +18,18 @@ namespace penumbra {
 /// Shaders read it through depth_map.glsl.
 class DepthMap {
   public:
+    /// Which surface a texel sees.
+    enum class Surface {
+        nearest,       ///< no caster: depth 0
+        farthestBack,  ///< the farthest among those that face away from the camera; no caster: depth 1
+    };
+
     explicit DepthMap(Device& device);
 
     /// Draws every caster that casts into one layer for each camera, leaving out those a camera cannot see.
     /// Throws Error::Kind::badArgument where the device has no room for so many or so large maps.
     void render(std::span<const Caster> casters, const LightSpaceScene& scene, std::span<const LightCamera> cameras,
-                int mapSize_px);
+                int mapSize_px, Surface surface = Surface::nearest);
 
     /// Binds the maps to texture unit `unit` and their cameras to storage block `block`.
     void bind(unsigned unit, unsigned block) const;

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/techniques/shadow_width_map/map_cameras.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace penumbra {
+namespace {
+
+constexpr double widestMargin = 1.0 / 6;  // of the window
+
+/// How far from its hard edge a penumbra can begin, in tangents or metres of the camera: see footprint.glsl.
+/// A blocker that reaches the camera's plane makes it as wide as is allowed.
+double penumbraReach(const AreaLight& light, const LightSpaceScene& scene, const LightCamera& camera,
+                     double window) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const BoxCorners& box : scene.boxes) {
+        if (!camera.mightSee(box)) continue;
+        for (const glm::dvec3& corner : box) {
+            const double depth = (camera.faceFromLight * glm::dvec4(corner, 1)).z;
+            nearest = std::min(nearest, camera.orthographic ? depth : std::max(depth, 0.0));
+        }
+    }
+    double reach = 0;
+    if (camera.orthographic) {
+        reach =
+            std::tan(0.5 * std::min(double(light.angle_rad), 3.0)) * std::max(camera.far_m - nearest, 0.0);
+    } else {
+        const double extent = light.shape == LightShape::rect
+                                  ? 0.5 * std::hypot(light.width_m, light.height_m)
+                                  : double(light.radius_m);
+        reach = extent == 0 ? 0 : extent / nearest;
+    }
+    return std::min(reach, widestMargin * window);
+}
+
+/// A cheap fingerprint of a mesh, since a freed one's address and buffer may serve another.
+void appendMesh(std::vector<double>& key, const Mesh& mesh) {
+    const std::span<const Vec3> positions = mesh.positions();
+    const std::span<const std::uint32_t> indices = mesh.indices();
+    key.insert(key.end(), {double(mesh.positionBuffer()), double(mesh.revision()), double(positions.size()),
+                           double(indices.size())});
+    constexpr std::size_t probes = 16;
+    for (std::size_t i = 0; i < probes && !positions.empty(); ++i) {
+        const Vec3& p = positions[i * (positions.size() - 1) / (probes - 1)];
+        key.insert(key.end(), {double(p.x), double(p.y), double(p.z)});
+    }
+    for (std::size_t i = 0; i < probes && !indices.empty(); ++i) {
+        key.push_back(double(indices[i * (indices.size() - 1) / (probes - 1)]));
+    }
+}
+
+void appendMatrix(std::vector<double>& key, const glm::dmat4& matrix) {
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) key.push_back(matrix[column][row]);
+    }
+}
+
+}  // namespace
+
+std::vector<LightCamera> fitMapCameras(const AreaLight& light, const LightSpaceScene& scene, int mapSize_px) {
+    std::vector<LightCamera> cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px});
+    for (LightCamera& camera : cameras) {
+        const glm::dvec2 center = 0.5 * (camera.windowMin + camera.windowMax);
+        const glm::dvec2 extent = camera.windowMax - camera.windowMin;
+        const double window = std::max(extent.x, extent.y);
+        const glm::dvec2 half(0.5 * window + penumbraReach(light, scene, camera, window));
+        camera.windowMin = center - half;
+        camera.windowMax = center + half;
+    }
+    return cameras;
+}
+
+void appendMapKey(std::vector<double>& key, const ShadowInputs& inputs, const LightSpaceScene& scene,
+                  std::span<const LightCamera> cameras) {
+    for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
+        const Caster& caster = inputs.casters[i];
+        key.insert(key.end(),
+                   {double(caster.casts), double(caster.receives), double(caster.alphaMask.texture),
+                    double(caster.alphaMask.factor), double(caster.alphaMask.cutoff)});
+        appendMatrix(key, scene.lightFromMesh[i]);
+        appendMesh(key, *caster.mesh);
+    }
+    for (const LightCamera& camera : cameras) {
+        appendMatrix(key, camera.faceFromLight);
+        key.insert(key.end(), {camera.windowMin.x, camera.windowMin.y, camera.windowMax.x, camera.windowMax.y,
+                               camera.near_m, camera.far_m});
+    }
+}
+
+}  // namespace penumbra

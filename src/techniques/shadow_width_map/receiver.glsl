@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// What both resolving shaders ask of the light, the receiver and the maps.
+#include "src/techniques/common/view.glsl"
+#define DEPTH_MAP_UNIT 3
+#define DEPTH_MAP_BLOCK 0
+#include "src/techniques/common/depth_map.glsl"
+#include "src/techniques/shadow_width_map/shadow_width_io.h"
+
+layout(std140, binding = 1) uniform ShadowWidthBlock { ShadowWidthConstants constants; };
+layout(binding = 0) uniform writeonly image2D visibility;
+
+const int rectLight = 0, diskLight = 1, sphereLight = 2, distantLight = 3;
+
+// Whether any of the light, or its centre, is above the surface's horizon and on the side that the light emits to.
+bool isFacing(Receiver receiver, bool anyOfLight) {
+    vec3 normal = receiver.normalLight;
+    float height_m = constants.light.x == distantLight ? normal.z : -dot(normal, receiver.posLight);
+    if (anyOfLight) {
+        float across = constants.light.x == distantLight ? length(normal.xy) : 1.0;
+        height_m += constants.halfAxisX.w * across;
+        float x = dot(normal, constants.halfAxisX.xyz), y = dot(normal, constants.halfAxisY.xyz);
+        height_m += constants.light.x == rectLight ? abs(x) + abs(y) : length(vec2(x, y));
+    }
+    // Nothing but a line of the light above the horizon is nothing.
+    float least_m = anyOfLight ? 1e-5 * length(receiver.posLight) : 0.0;
+    return height_m > least_m && (constants.light.z == 0 || receiver.posLight.z < 0.0);
+}
+
+// The camera in whose window the receiver lies deepest, so that all that surrounds its shadow is in the map too; -1 if
+// none sees it.
+int deepestCamera(vec3 posLight, out MapPoint best) {
+    int bestCamera = -1;
+    float deepest = 0.0;
+    best = MapPoint(vec3(0.0, 0.0, 1.0), vec2(0.0), 0.0);
+    for (int camera = 0; camera < constants.light.y; ++camera) {
+        MapPoint point = mapPoint(camera, posLight);
+        float inside = min(min(point.uv.x, 1.0 - point.uv.x), min(point.uv.y, 1.0 - point.uv.y));
+        if (!isInWindow(camera, point) || inside < deepest) continue;
+        deepest = inside;
+        best = point;
+        bestCamera = camera;
+    }
+    return bestCamera;
+}

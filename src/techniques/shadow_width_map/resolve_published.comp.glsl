@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 450
+// Kirsch and Döllner 2003, sections 3 and 4: attenuation I(sd, sw) of shadow depth and shadow width, both filtered
+// linearly as by the texture units of their time.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#include "src/techniques/shadow_width_map/receiver.glsl"
+
+layout(binding = 4) uniform sampler2DArray widths;
+layout(binding = 5) uniform sampler2D curve;
+layout(location = 1) uniform float curveEnd;  // the ratio that the table ends at
+layout(location = 0) uniform float background;  // the depth where there is no caster
+
+// Linear depth of a texel; where there is no caster, the shadow depth shall be 0.
+float blockerDepth_m(int camera, vec3 receiverFace, float stored) {
+    return stored == background ? receiverFace.z : min(depthFace_m(camera, stored), receiverFace.z);
+}
+
+float seenBy(Receiver receiver) {
+    if (!isFacing(receiver, false)) return 0.0;
+    MapPoint point;
+    int camera = deepestCamera(receiver.posLight, point);
+    if (camera < 0) return 1.0;
+    float size_px = float(textureSize(depthMaps, 0).x);
+
+    ivec2 corner = ivec2(floor(point.uv * size_px - 0.5));
+    vec2 weight = point.uv * size_px - 0.5 - vec2(corner);
+    float sd_m = 0.0, width = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 offset = ivec2(i & 1, i >> 1);
+        ivec3 texel = ivec3(clamp(corner + offset, ivec2(0), ivec2(size_px - 1.0)), camera);
+        vec2 w = mix(1.0 - weight, weight, vec2(offset));
+        sd_m += w.x * w.y * (point.posFace.z - blockerDepth_m(camera, point.posFace, texelFetch(depthMaps, texel, 0).r));
+        width += w.x * w.y * texelFetch(widths, texel, 0).r;
+    }
+    // The receiver's own surface is no blocker: less than a texel and rounding apart.
+    vec3 normalFace = mat3(lightCameras[camera].faceFromLight) * receiver.normalLight;
+    float slope = length(normalFace.xy) / max(0.1, abs(normalFace.z));
+    float tolerance_m = point.texel_m * (1.0 + slope) + 4e-6 * length(point.posFace);
+    if (sd_m <= tolerance_m) return 1.0;
+    float sw_m = width * constants.attenuation.z * point.texel_m;
+    // The true umbra begins where the width is a share of the light's half extent: sw = a sd / z_b.
+    float scale = constants.attenuation.x;
+    if (scale < 0.0) {
+        bool distant = constants.light.x == distantLight;
+        float extent = constants.halfAxisY.w;
+        if (extent == 0.0) return sw_m > 0.0 ? 0.0 : 1.0;
+        scale = distant ? 1.0 / extent : max(point.posFace.z - sd_m, 0.0) / extent;
+    }
+    float ratio = scale * sw_m / sd_m;
+    float entries = float(textureSize(curve, 0).x);
+    float entry = min(ratio / curveEnd, 1.0) * (entries - 1.0) + 0.5;
+    return clamp(constants.attenuation.y + textureLod(curve, vec2(entry / entries, 0.5), 0.0).r, 0.0, 1.0);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
+    Receiver receiver;
+    imageStore(visibility, pixel, vec4(loadReceiver(pixel, receiver) ? seenBy(receiver) : 1.0));
+}

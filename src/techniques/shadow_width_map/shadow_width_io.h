@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light and the curve of attenuation as shaders see them; one struct for C++ and GLSL (std140).
+#ifndef PENUMBRA_SHADOW_WIDTH_IO_H
+#define PENUMBRA_SHADOW_WIDTH_IO_H
+
+#ifdef __cplusplus
+#include <glm/glm.hpp>
+namespace penumbra {
+using glm::ivec4;
+using glm::vec4;
+#endif
+
+// Half axes are in light space: (width / 2, 0, 0) and (0, height / 2, 0) of a rect, (radius, 0, 0) and
+// (0, radius, 0) of a disk, 0 of others.
+struct ShadowWidthConstants {
+    vec4 halfAxisX;    // w: a sphere's radius, or tan(angle / 2) of a distant light
+    vec4 halfAxisY;    // w: the light's mean half extent
+    vec4 attenuation;  // x: c_scale, or -1: physical; y: c_bias; z: texels to a unit of width
+    vec4 extent;       // x: the light's largest half extent
+    ivec4 light;       // x: LightShape; y: number of maps; z: 1 if one-sided; w: 1 if inner edges have maps
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(ShadowWidthConstants) == 80);
+}  // namespace penumbra
+#endif
+#endif

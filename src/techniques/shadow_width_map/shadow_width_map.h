@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Real-time soft shadows using a single light sample (F. Kirsch and J. Döllner, Journal of WSCG 11(1), 2003):
+// a map of distances to the shadow's border beside the depth map, from which the penumbra's attenuation
+// follows. The published constructions, and an exact one whose penumbra is as wide as the light makes it, on
+// both sides of the hard edge.
+#pragma once
+
+#include "penumbra/technique.h"
+#include "src/gl/pass_timers.h"
+#include "src/gl/program.h"
+#include "src/techniques/common/depth_map.h"
+#include "src/techniques/common/view_constants.h"
+#include "src/techniques/shadow_width_map/attenuation.h"
+#include "src/techniques/shadow_width_map/shadow_width_io.h"
+
+namespace penumbra {
+
+class ShadowWidthMap final : public Technique {
+  public:
+    explicit ShadowWidthMap(Device& device);
+
+    void describe(ParameterVisitor& visitor) override;
+    void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
+    void inspect(InspectionVisitor& visitor) const override;
+    Statistics statistics() const override;
+
+    /// Replaces the curve of the published modes. Throws Error::Kind::badArgument, naming the property, if it
+    /// is not a function as the paper wants it.
+    void setAttenuation(const AttenuationFunction& attenuation);
+
+  private:
+    enum Mode { exact, compositing, cpuSweep };
+
+    void makeMaps(const ShadowInputs& inputs, const LightSpaceScene& scene,
+                  std::span<const LightCamera> cameras);
+    void findNearestEdges();
+    void composite();
+    void sweepOnCpu();
+    void resolve(const ShadowInputs& inputs, const glm::dmat4& lightFromWorld, VisibilityBuffer& out);
+    void allocateWidths(int layers, bool scratch);
+    void resolvePublished(const VisibilityBuffer& out);
+    void resolveExact(const VisibilityBuffer& out);
+    ShadowWidthConstants constants(const AreaLight& light) const;
+    float background() const { return backFaces_ ? 1.0f : 0.0f; }
+
+    int mode_ = exact;
+    int mapSize_px_ = 1024;
+    bool innerEdges_ = true;
+    bool reuseMaps_ = true;
+    bool physical_ = true;
+    float cScale_ = 8;
+    float cBias_ = 0;
+    int curve_ = 0;
+    int neighbours_ = 1;
+    int startDifference_ = 3;
+
+    DepthMap depthMap_;
+    gl::Program edgeColumns_, edgeRows_, resolve_, penumbra_;
+    gl::Program composite_, published_;
+    gl::Texture columns_, edges_, widths_, scratch_, curveTable_;
+    int tabulatedCurve_ = -1;
+    gl::Buffer penumbraTiles_, listedTiles_;
+    gl::ConstantBuffer<ShadowWidthConstants> constants_;
+    ViewBinding view_;
+    gl::PassTimers timers_;
+
+    bool hasInnerEdges_ = false;  ///< of the maps as they are
+    bool backFaces_ = false;
+    std::vector<double> mapsMadeFrom_;
+    int timesMade_ = 0;
+};
+
+}  // namespace penumbra

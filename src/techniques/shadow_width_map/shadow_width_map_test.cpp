@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/techniques/shadow_width_map/shadow_width_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "src/gl/gl.h"
+#include "src/techniques/shadow_width_map/widths_cpu.h"
+#include "studio/scene/builtin/builtin.h"
+#include "tests/support/technique_test.h"
+
+namespace penumbra::studio {
+namespace {
+
+// -- The curve
+// -------------------------------------------------------------------------------------------------------
+
+std::string complaintAbout(const AttenuationFunction& attenuation) {
+    try {
+        tabulateAttenuation(attenuation);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Attenuation, PublishedCurvesHaveTheFiveProperties) {
+    EXPECT_EQ(complaintAbout(linearAttenuation), "");
+    EXPECT_EQ(complaintAbout(smoothAttenuation), "");
+    const std::vector<float> table = tabulateAttenuation(linearAttenuation);
+    EXPECT_EQ(table.front(), 1);
+    EXPECT_EQ(table.back(), 0);
+    EXPECT_NEAR(table[table.size() / 8], 1 - attenuationTableEnd / 8, 0.02) << "half a table entry is 0.008";
+}
+
+TEST(Attenuation, ViolatedPropertyIsNamed) {
+    const auto f = [](float sd, float sw) { return linearAttenuation(sd, sw); };
+    EXPECT_NE(complaintAbout([&](float sd, float sw) { return 0.9f * f(sd, sw); }).find("property 1"),
+              std::string::npos);
+    EXPECT_NE(complaintAbout([&](float sd, float sw) {
+                  return sd == 0 ? 1 : std::max(0.0f, 1 - sw);
+              }).find("property 2"),
+              std::string::npos);
+    EXPECT_NE(complaintAbout([&](float sd, float sw) {
+                  return sd == 0 || sw < sd ? 1.0f : 0.0f;
+              }).find("property 3"),
+              std::string::npos)
+        << "level before its step: not strictly falling";
+    EXPECT_NE(complaintAbout([&](float sd, float sw) {
+                  return f(sd, sw) * (sd == 0 || sw < 0.4f * sd ? 1.0f : 0.3f);
+              }).find("property 4"),
+              std::string::npos);
+    EXPECT_NE(complaintAbout([](float, float) {
+                  return std::numeric_limits<float>::quiet_NaN();
+              }).find("property 0"),
+              std::string::npos);
+}
+
+// -- Widths
+// ----------------------------------------------------------------------------------------------------------
+
+/// A map as drawn: '#' blocks.
+struct Drawing {
+    explicit Drawing(const std::vector<std::string>& rows)
+        : size(int(rows.size())), blocked(new bool[rows.size() * rows.size()]) {
+        for (int y = 0; y < size; ++y) {
+            for (int x = 0; x < size; ++x)
+                blocked[std::size_t(y * size + x)] = rows[std::size_t(y)][std::size_t(x)] == '#';
+        }
+    }
+    std::span<const bool> span() const { return {blocked.get(), std::size_t(size * size)}; }
+    int size;
+    std::unique_ptr<bool[]> blocked;
+};
+
+TEST(Widths, SweepsCountStepsToTheNearestLitTexel) {
+    const Drawing drawing({"######", "######", "##.###", "######", "######", "######"});
+    const std::vector<float> widths = sweepShadowWidths(drawing.span(), drawing.size, 0.125f);
+    for (int y = 0; y < 6; ++y) {
+        for (int x = 0; x < 6; ++x) {
+            EXPECT_EQ(widths[std::size_t(6 * y + x)], 0.125f * float(std::abs(x - 2) + std::abs(y - 2)));
+        }
+    }
+}
+
+TEST(Widths, SweepsStopAtOneWhereNothingIsLit) {
+    const Drawing drawing({"###", "###", "###"});
+    for (const float width : sweepShadowWidths(drawing.span(), 3, 0.25f)) EXPECT_EQ(width, 1);
+}
+
+TEST(Widths, ExactWidthsAreThoseOfASearch) {
+    const Drawing drawing({"#....#.", "..##...", ".####..", ".######", "...##..", "#......", "....#.."});
+    const std::vector<float> widths = exactShadowWidths(drawing.span(), drawing.size);
+    const auto isBlocked = [&](int x, int y) { return drawing.blocked[std::size_t(7 * y + x)]; };
+    for (int i = 0; i < 49; ++i) {
+        float nearest = std::numeric_limits<float>::infinity();
+        for (int y = 0; y < 7; ++y) {
+            for (int x = 0; x < 7; ++x) {
+                const auto dx = float(x - i % 7), dy = float(y - i / 7);
+                if (x < 6 && isBlocked(x, y) != isBlocked(x + 1, y))
+                    nearest = std::min(nearest, std::hypot(dx + 0.5f, dy));
+                if (y < 6 && isBlocked(x, y) != isBlocked(x, y + 1))
+                    nearest = std::min(nearest, std::hypot(dx, dy + 0.5f));
+            }
+        }
+        EXPECT_FLOAT_EQ(widths[std::size_t(i)], nearest) << i;
+    }
+}
+
+class ShadowWidthTest : public TechniqueTest {
+  protected:
+    static constexpr PictureSize size{160, 120};
+    static constexpr int rays = 64;  ///< noise of at most 0.06 a pixel: 0.004 more in an RMS of 0.08
+
+    static double penumbraRmse(const LightResult& exact, const LightResult& result) {
+        return judge(exact, result).penumbra_rmse;
+    }
+
+    /// The first layer of an inspected texture.
+    static std::vector<float> texels(const Technique& technique, std::string_view name, GLenum format,
+                                     int size_px) {
+        class Finder final : public InspectionVisitor {
+          public:
+            explicit Finder(std::string_view name) : name_(name) {}
+            void texture(const InspectedTexture& inspected) override {
+                if (inspected.name == name_) found = inspected.texture;
+            }
+            GLuint found = 0;
+
+          private:
+            std::string_view name_;
+        };
+        Finder finder(name);
+        technique.inspect(finder);
+        std::vector<float> values(std::size_t(size_px) * std::size_t(size_px));
+        glGetTextureSubImage(finder.found, 0, 0, 0, 0, size_px, size_px, 1, format, GL_FLOAT,
+                             GLsizei(values.size() * sizeof(float)), values.data());
+        return values;
+    }
+
+    static double timesMade(const LightResult& result) {
+        return std::ranges::find(result.statistics.counts, "times the maps were made", &Statistic::name)
+            ->value;
+    }
+};
+
+/// The device goes by the nearest texel that has such a side, whose middle is half a texel beside its centre.
+TEST_F(ShadowWidthTest, WidthsOfTheDeviceAndTheCpuAgreeToHalfATexel) {
+    for (const char* scene : {"primitives", "torus"}) {
+        for (const int map_px : {64, 331}) {
+            const std::unique_ptr<Technique> technique = workbench().makeTechnique("shadow-width");
+            setParameter(*technique, "map_size", std::to_string(map_px));
+            render(*technique, makeBuiltin(scene), {32, 24});
+            const std::vector<float> depths = texels(*technique, "depth map", GL_DEPTH_COMPONENT, map_px);
+            const std::vector<float> widths =
+                texels(*technique, "distance to the nearest edge", GL_RED, map_px);
+            const auto blocked = std::make_unique<bool[]>(depths.size());
+            std::ranges::transform(depths, blocked.get(), [](float depth) { return depth > 0; });
+            const std::vector<float> exact = exactShadowWidths({blocked.get(), depths.size()}, map_px);
+            ASSERT_TRUE(std::ranges::any_of(exact, [](float d) { return d > 5 && std::isfinite(d); }));
+            for (std::size_t i = 0; i < widths.size(); ++i) {
+                ASSERT_NEAR(widths[i], exact[i], 0.5f) << scene << " " << map_px << " texel " << i;
+            }
+        }
+    }
+}
+
+// -- Against the reference
+// -------------------------------------------------------------------------------------------
+
+/// One blocker, and a light no wider than a tenth of its distance.
+Scene singleBlocker(const char* name) {
+    return withLight(makeBuiltin(name), [](Light& light) {
+        light.shape.width_m = light.shape.height_m = 0.4f;
+        light.shape.radius_m = 0.2f;
+    });
+}
+
+TEST_F(ShadowWidthTest, SingleBlockersAreNearTheTruth) {
+    for (const char* name : {"half-plane", "disk-over-ground", "sphere", "torus"}) {
+        const Scene scene = singleBlocker(name);
+        const LightResult exact = truth(scene, size, rays);
+        const VisibilityMetrics ours = judge(exact, render("shadow-width", scene, size));
+        EXPECT_LE(ours.penumbra_rmse, 0.08) << name << ": the figure that was asked for";
+        EXPECT_LT(ours.penumbra_rmse, penumbraRmse(exact, render("hard", scene, size))) << name;
+        for (const char* mode : {"compositing", "cpu-sweep"}) {
+            // Smaller maps than by default, to save time; none of these penumbrae is wider than 64 of their
+            // texels.
+            const LightResult published =
+                render("shadow-width", scene, size,
+                       {{"mode", mode}, {"map_size", "512"}, {"start_difference", "1/64"}});
+            EXPECT_LT(ours.penumbra_rmse, penumbraRmse(exact, published)) << name << " " << mode;
+        }
+    }
+}
+
+TEST_F(ShadowWidthTest, EveryShapeOfLightHasItsPenumbra) {
+    for (const LightShape shape :
+         {LightShape::rect, LightShape::disk, LightShape::sphere, LightShape::distant}) {
+        for (const bool turned : {false, true}) {
+            const Scene scene = withLight(makeBuiltin("torus"), [&](Light& light) {
+                light.shape.shape = shape;
+                light.shape.width_m = 1;
+                light.shape.height_m = turned ? 1 : 0.2f;
+                light.shape.radius_m = 0.3f;
+                light.shape.angle_rad = 0.12f;
+            });
+            const LightResult exact = truth(scene, size, rays);
+            EXPECT_LE(penumbraRmse(exact, render("shadow-width", scene, size)), 0.1) << int(shape);
+            if (shape != LightShape::rect) break;
+        }
+    }
+}
+
+/// Figure 7: with widths filtered linearly, a shadow of 64 x 64 texels has an outer boundary that jumps.
+TEST_F(ShadowWidthTest, SmallMapsStayNearTheTruth) {
+    const Scene scene = makeBuiltin("disk-and-sphere");
+    const LightResult exact = truth(scene, size, rays);
+    const double ours = penumbraRmse(exact, render("shadow-width", scene, size, {{"map_size", "64"}}));
+    EXPECT_LE(ours, 0.15);
+    EXPECT_LT(ours, penumbraRmse(exact, render("hard", scene, size, {{"map_size", "64"}})));
+    EXPECT_LT(ours, penumbraRmse(exact,
+                                 render("shadow-width", scene, size,
+                                        {{"map_size", "64"}, {"mode", "compositing"}, {"neighbours", "6"}})));
+}
+
+/// Figure 5, and shadows on what casts shadows itself.
+TEST_F(ShadowWidthTest, InnerEdgesGiveShadowsOnCastersTheirPenumbra) {
+    const Scene scene = makeBuiltin("overlapping-blockers");
+    const LightResult exact = truth(scene, size, rays);
+    const double with = penumbraRmse(exact, render("shadow-width", scene, size));
+    EXPECT_LT(with,
+              0.8 * penumbraRmse(exact, render("shadow-width", scene, size, {{"inner_edges", "false"}})));
+    EXPECT_LT(with, 0.5 * penumbraRmse(exact, render("hard", scene, size)));
+}
+
+TEST_F(ShadowWidthTest, LightsAmongTheCastersHaveNoSeams) {
+    const Scene scene =
+        withMoment(makeBuiltin("columns"), [](SceneMoment& moment) { moment.lights.resize(1); });
+    const LightResult exact = truth(scene, size, rays);
+    const LightResult ours = render("shadow-width", scene, size);
+    EXPECT_GT(ours.statistics.counts.front().value, 1) << "maps";
+    EXPECT_LE(judge(exact, ours).rmse, 0.5 * judge(exact, render("hard", scene, size)).rmse);
+}
+
+// -- Bad and borderline input
+// ----------------------------------------------------------------------------------------
+
+TEST_F(ShadowWidthTest, BlockersThatFillTheMapLeaveNoLight) {
+    const Scene scene = withMoment(makeBuiltin("half-plane"), [](SceneMoment& moment) {
+        for (Instance& instance : moment.instances) {
+            if (instance.casts) instance.worldFromMesh[3].x = 0;
+        }
+    });
+    for (const char* mode : {"exact", "compositing", "cpu-sweep"}) {
+        const LightResult result =
+            render("shadow-width", scene, {40, 30}, {{"mode", mode}, {"map_size", "100"}});
+        EXPECT_TRUE(std::ranges::all_of(result.visibility.values, [](float v) { return v == 0; })) << mode;
+    }
+}
+
+TEST_F(ShadowWidthTest, EveryMapSizeWorksInEveryMode) {
+    for (const char* mode : {"exact", "compositing", "cpu-sweep"}) {
+        for (const char* map : {"16", "64", "97", "300"}) {
+            const LightResult result =
+                render("shadow-width", makeBuiltin("primitives"), {64, 48},
+                       {{"mode", mode}, {"map_size", map}, {"start_difference", "1/16"}});
+            EXPECT_TRUE(
+                std::ranges::all_of(result.visibility.values, [](float v) { return v >= 0 && v <= 1; }));
+        }
+    }
+}
+
+TEST_F(ShadowWidthTest, ScaleOfZeroIsNoShadowAndNonsenseIsRefused) {
+    const Scene scene = makeBuiltin("torus");
+    const LightResult result = render("shadow-width", scene, {64, 48},
+                                      {{"mode", "compositing"}, {"physical", "false"}, {"c_scale", "0"}});
+    // What is turned away from the light stays dark.
+    EXPECT_TRUE(std::ranges::all_of(result.visibility.values, [](float v) { return v == 0 || v == 1; }));
+    EXPECT_GT(std::ranges::count(result.visibility.values, 1.0f), 60 * 48);
+    const std::unique_ptr<Technique> technique = workbench().makeTechnique("shadow-width");
+    for (const char* value : {"-1", "nan", "-inf", "x"}) {
+        EXPECT_THROW(setParameter(*technique, "c_scale", value), Error) << value;
+    }
+    for (const char* value : {"0", "-64", "15", "4097"}) {
+        EXPECT_THROW(setParameter(*technique, "map_size", value), Error) << value;
+    }
+}
+
+TEST_F(ShadowWidthTest, MapsAreMadeAnewOnlyWhenSomethingInThemHasChanged) {
+    const std::unique_ptr<Technique> technique = workbench().makeTechnique("shadow-width");
+    const Scene scene = makeBuiltin("two-boxes");
+    const SceneMoment moment = scene.at(0);
+    workbench().open(scene);
+    const auto run = [&](const SceneMoment& now) {
+        return workbench().run("test", *technique, now, now.cameras.front(), {64, 48}).lights.at(0);
+    };
+    const LightResult first = run(moment);
+    const LightResult again = run(moment);
+    EXPECT_EQ(timesMade(again), timesMade(first));
+    EXPECT_EQ(first.visibility.values, again.visibility.values);
+
+    SceneMoment moved = scene.at(0);
+    for (Instance& instance : moved.instances) {
+        if (instance.casts) instance.worldFromMesh[3].y += 0.1f;
+    }
+    const LightResult after = run(moved);
+    EXPECT_EQ(timesMade(after), timesMade(first) + 1);
+    EXPECT_EQ(after.visibility.values, render("shadow-width",
+                                              withMoment(makeBuiltin("two-boxes"),
+                                                         [](SceneMoment& m) {
+                                                             for (Instance& instance : m.instances) {
+                                                                 if (instance.casts)
+                                                                     instance.worldFromMesh[3].y += 0.1f;
+                                                             }
+                                                         }),
+                                              {64, 48})
+                                           .visibility.values);
+
+    setParameter(*technique, "reuse_maps", "false");
+    workbench().open(scene);
+    const double before = timesMade(run(moment));
+    EXPECT_EQ(timesMade(run(moment)), before + 1);
+}
+
+}  // namespace
+}  // namespace penumbra::studio
