@@ -122,10 +122,13 @@ void SilhouetteExtractor::extract(std::span<const SilhouetteSource> sources, con
     bindStorage(4, marks_.name());
     bindStorage(5, offsets_.name());
     bindEdges(6);
+    vertexCount_ = 0;
     forEachMesh([&](std::size_t i, std::size_t edges) {
         bindStorage(0, sources[i].mesh->positionBuffer());
         glUniformMatrix4fv(3, 1, GL_FALSE, glm::value_ptr(glm::mat4(sources[i].lightFromMesh)));
         glUniform1ui(4, GLuint(i));
+        glUniform1ui(5, GLuint(vertexCount_));
+        vertexCount_ += sources[i].mesh->positions().size();
         dispatch(edges);
     });
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);

@@ -51,13 +51,15 @@ class SilhouetteExtractor {
 
     /// Number of edges examined.
     std::size_t edgeCount() const { return edgeCount_; }
+    /// Number of vertices that SilhouetteEdge::a and b count through.
+    std::size_t vertexCount() const { return vertexCount_; }
     /// Number of silhouette edges found. Waits for the device: not for use in a frame.
     unsigned countFound() const;
 
   private:
     gl::Program facing_, mark_, scan_, write_;
     gl::Buffer facings_, marks_, offsets_, silhouettes_, commands_;
-    std::size_t edgeCount_ = 0;
+    std::size_t edgeCount_ = 0, vertexCount_ = 0;
 };
 
 }  // namespace penumbra

@@ -13,6 +13,7 @@ layout(std430, binding = 6) writeonly buffer Silhouettes { SilhouetteEdge silhou
 
 layout(location = 3) uniform mat4 lightFromMesh;
 layout(location = 4) uniform uint caster;
+layout(location = 5) uniform uint firstVertex;
 
 vec3 positionLight(uint vertex) {
     vec3 posMesh = vec3(positions[3u * vertex], positions[3u * vertex + 1u], positions[3u * vertex + 2u]);
@@ -29,6 +30,6 @@ void main() {
     uint rank = offsets[block] + uint(bitCount(bits & (bit - 1u)));
     for (uint i = 0u; i < word; ++i) rank += uint(bitCount(marks[block * wordsPerBlock + i]));
     Edge edge = edges[gl_GlobalInvocationID.x];
-    silhouettes[rank] =
-        SilhouetteEdge(positionLight(edge.a), silhouetteWeight(edge), positionLight(edge.b), caster);
+    silhouettes[rank] = SilhouetteEdge(positionLight(edge.a), silhouetteWeight(edge), positionLight(edge.b), caster,
+                                       firstVertex + edge.a, firstVertex + edge.b, 0u, 0u);
 }

@@ -19,6 +19,10 @@ struct SilhouetteEdge {
     int weight;
     vec3 bLight;
     uint caster;  // its number in the list that was extracted from
+    uint a;       // the ends' vertices, counted through all meshes of that list; welded ones share one number
+    uint b;
+    uint unused0;
+    uint unused1;
 };
 
 // Counts on the device, ready for indirect calls.
@@ -34,7 +38,7 @@ struct SilhouetteCommands {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(SilhouetteEdge) == 32);
+static_assert(sizeof(SilhouetteEdge) == 48);
 static_assert(sizeof(SilhouetteCommands) == 32);
 }  // namespace penumbra
 #endif

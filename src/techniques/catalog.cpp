@@ -8,6 +8,7 @@
 #include "src/techniques/shadow_map/hard.h"
 #include "src/techniques/shadow_map/pcf.h"
 #include "src/techniques/shadow_map/pcss.h"
+#include "src/techniques/smoothies/smoothies.h"
 
 namespace penumbra {
 namespace {
@@ -26,6 +27,11 @@ constexpr std::array entries = {
     Entry{{"hard", "one shadow map from the light's centre: no penumbra (Williams 1978)", 0.30f}, make<HardShadowMap>},
     Entry{{"pcf", "a shadow map filtered over a fixed kernel (Reeves et al. 1987)", 0.30f}, make<Pcf>},
     Entry{{"pcss", "blocker search, then a filter as wide as the penumbra (Fernando 2005)", 0.02f}, make<Pcss>},
+    Entry{{"hard", "one shadow map from the light's centre: no penumbra (Williams 1978)", 0.30f},
+          make<HardShadowMap>},
+    Entry{{"smoothies", "geometry on silhouettes fades the edges of a shadow map (Chan and Durand 2003)",
+           0.02f},
+          make<Smoothies>},
 };
 
 constexpr auto infos = [] {
@@ -36,7 +42,9 @@ constexpr auto infos = [] {
 
 }  // namespace
 
-std::span<const TechniqueInfo> techniqueCatalog() { return infos; }
+std::span<const TechniqueInfo> techniqueCatalog() {
+    return infos;
+}
 
 std::unique_ptr<Technique> makeTechnique(Device& device, std::string_view name) {
     std::string names;
@@ -44,7 +52,8 @@ std::unique_ptr<Technique> makeTechnique(Device& device, std::string_view name) 
         if (entry.info.name == name) return entry.make(device);
         names += (names.empty() ? "" : ", ") + std::string(entry.info.name);
     }
-    throw Error(Error::Kind::unknownName, "there is no technique '" + std::string(name) + "'; there are: " + names);
+    throw Error(Error::Kind::unknownName,
+                "there is no technique '" + std::string(name) + "'; there are: " + names);
 }
 
 }  // namespace penumbra

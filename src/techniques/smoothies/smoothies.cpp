@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/techniques/smoothies/smoothies.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "src/gl/raster_state.h"
+#include "src/techniques/smoothies/vertex_normals_io.h"
+
+namespace penumbra {
+namespace {
+
+constexpr std::array<std::string_view, 3> falloffs = {"light", "linear", "sinusoidal"};
+
+std::vector<std::string> variant(const Device::Internals& device, bool inner) {
+    std::vector<std::string> defines;
+    if (!device.layerFromVertexShader) defines.push_back("LAYER_BY_LAYER");
+    if (inner) defines.push_back("INNER");
+    return defines;
+}
+
+bool hasSize(const AreaLight& light) {
+    switch (light.shape) {
+        case LightShape::rect:
+            return light.width_m > 0 || light.height_m > 0;
+        case LightShape::distant:
+            return light.angle_rad > 0;
+        default:
+            return light.radius_m > 0;
+    }
+}
+
+/// How far away, along the camera's axis, the receivers reach.
+double farthestReceiver_m(const LightCamera& camera, const LightSpaceScene& scene) {
+    double farthest_m = 0;
+    for (const ReceiverRegion::Polygon& polygon : scene.receivers.polygons) {
+        for (const glm::dvec3& posLight : polygon) {
+            farthest_m = std::max(farthest_m, (camera.faceFromLight * glm::dvec4(posLight, 1)).z);
+        }
+    }
+    return farthest_m;
+}
+
+}  // namespace
+
+Smoothies::Smoothies(Device& device)
+    : device_(device.internals()),
+      depthMap_(device),
+      receiverMap_(device),
+      silhouettes_(device),
+      clearNormals_(device_.shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"}, {"CLEAR"}),
+      addNormals_(device_.shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"}),
+      outerProgram_(
+          device_.shaders,
+          {"src/techniques/smoothies/smoothie.vert.glsl", "src/techniques/smoothies/outer.frag.glsl"},
+          variant(device_, false)),
+      innerProgram_(
+          device_.shaders,
+          {"src/techniques/smoothies/smoothie.vert.glsl", "src/techniques/smoothies/inner.frag.glsl"},
+          variant(device_, true)),
+      resolve_(device_.shaders, {"src/techniques/smoothies/resolve.comp.glsl"}),
+      noVertices_(gl::makeFloatVertexArray(3)),
+      constants_("smoothie constants") {}
+
+void Smoothies::describe(ParameterVisitor& visitor) {
+    visitor.integer({.name = "map_size",
+                     .unit = "texels",
+                     .help = "width and height of the shadow map and the smoothie buffers"},
+                    mapSize_px_, {16, 16384});
+    visitor.boolean({.name = "inner",
+                     .help = "smoothies reach into the blocker too, so that the umbra shrinks as the light "
+                             "grows; off as in the paper"},
+                    inner_);
+    visitor.real({.name = "t",
+                  .help = "width of every smoothie as a share of half the light camera's window (the paper's "
+                          "t, 0.02 to 0.2); 0 derives it from the light's size"},
+                 t_, {0, 1});
+    visitor.boolean({.name = "remap",
+                     .help = "alpha follows the distances of blocker and receiver (equation 1); off: the "
+                             "same width everywhere"},
+                    remap_);
+    visitor.choice({.name = "falloff",
+                    .help = "how visibility grows across a smoothie: as the light's shape asks for, "
+                            "linearly, or sinusoidally"},
+                   falloff_, falloffs);
+}
+
+SmoothieConstants Smoothies::constantsOf(const AreaLight& light, const LightCamera& camera,
+                                         const LightSpaceScene& scene) const {
+    const glm::dmat3 faceFromLight(camera.faceFromLight);
+    const bool rect = light.shape == LightShape::rect;
+    const bool distant = light.shape == LightShape::distant;
+    const glm::dvec2 extent = camera.windowMax - camera.windowMin;
+    const double window = std::max(extent.x, extent.y);
+    const double farthest_m = farthestReceiver_m(camera, scene);
+    // Edges much nearer to the light than to anything they shade: all of the window is in their penumbra
+    // anyway.
+    const double nearest_m = camera.orthographic ? camera.near_m : 1e-4 * farthest_m;
+    return {
+        .halfX = glm::dvec4(faceFromLight[0] * double(rect ? 0.5f * light.width_m : light.radius_m), 0),
+        .halfY = glm::dvec4(faceFromLight[1] * double(rect ? 0.5f * light.height_m : light.radius_m), 0),
+        .widths = {distant ? std::tan(0.5 * light.angle_rad) : light.radius_m, 0.5 * t_ * window,
+                   window / mapSize_px_, window},
+        .nearness = {camera.orthographic ? -farthest_m : 1 / farthest_m,
+                     camera.orthographic ? -nearest_m : 1 / nearest_m, 0, 0},
+        .settings = {int(light.shape), falloff_, remap_, inner_},
+    };
+}
+
+void Smoothies::allocate(int layers) {
+    if (outer_.width_px() == mapSize_px_ && outer_.layers() >= layers && (!inner_ || innerEdges_.name() != 0))
+        return;
+    const auto make = [&](GLenum format, std::string_view label) {
+        return gl::Texture({.width_px = mapSize_px_,
+                            .height_px = mapSize_px_,
+                            .layers = layers,
+                            .format = format,
+                            .label = label});
+    };
+    for (gl::Texture* texture : {&outer_, &innerEdges_, &innerOrder_}) *texture = {};  // freed first, to fit
+    outer_ = make(GL_RG32F, "smoothies/outer");
+    outerFramebuffer_ = gl::Framebuffer({&outer_}, nullptr, "smoothies/outer");
+    if (!inner_) return;
+    innerEdges_ = make(GL_RGBA32F, "smoothies/inner");
+    innerOrder_ = make(GL_DEPTH_COMPONENT32F, "smoothies/inner order");
+    innerFramebuffer_ = gl::Framebuffer({&innerEdges_}, &innerOrder_, "smoothies/inner");
+}
+
+void Smoothies::findVertexNormals(bool distant) {
+    const std::size_t size_bytes = silhouettes_.vertexCount() * sizeof(glm::ivec4);
+    if (vertexNormals_.name() == 0 || vertexNormals_.size_bytes() < size_bytes) {
+        vertexNormals_ = gl::Buffer(size_bytes, "smoothies/vertex normals");
+    }
+    silhouettes_.bindEdges(0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, silhouettes_.commands().name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, vertexNormals_.name());
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, silhouettes_.commands().name());
+    for (const gl::Program* program : {&clearNormals_, &addNormals_}) {
+        program->use();
+        if (program == &addNormals_) glUniform1i(0, distant);
+        glDispatchComputeIndirect(GLintptr(SilhouetteExtractor::dispatchOffset));
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    }
+}
+
+void Smoothies::drawSmoothies(const gl::Program& program, const gl::Framebuffer& framebuffer,
+                              const gl::Texture& color, const gl::Texture* depth) const {
+    constexpr std::array<float, 4> nothing = {3.0e38f, 1, 0, 0};  // outer: no smoothie, lit
+    constexpr std::array<float, 4> noEdge = {0, 0, 0, 0};
+    constexpr float farthest = 1;
+    const auto clearAndDraw = [&] {
+        glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, 0,
+                                  depth != nullptr ? noEdge.data() : nothing.data());
+        if (depth != nullptr) glClearNamedFramebufferfv(framebuffer.name(), GL_DEPTH, 0, &farthest);
+        glDrawArraysIndirect(GL_TRIANGLES, nullptr);
+    };
+    program.use();
+    glBindVertexArray(noVertices_.name());
+    if (hasReceiverMap_) receiverMap_.bind(1, 0);
+    depthMap_.bind(0, 0);
+    constants_.bind(1);
+    silhouettes_.bindEdges(2);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, vertexNormals_.name());
+    glUniform1i(0, hasReceiverMap_);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, silhouettes_.commands().name());
+    if (device_.layerFromVertexShader) {
+        clearAndDraw();
+        return;
+    }
+    for (int layer = 0; layer < depthMap_.count(); ++layer) {
+        glNamedFramebufferTextureLayer(framebuffer.name(), GL_COLOR_ATTACHMENT0, color.name(), 0, layer);
+        if (depth != nullptr)
+            glNamedFramebufferTextureLayer(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth->name(), 0, layer);
+        glUniform1i(1, layer);
+        clearAndDraw();
+    }
+}
+
+void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
+    checkInputs(inputs, out);
+    const AreaLight& light = inputs.light;
+    const bool distant = light.shape == LightShape::distant;
+    const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
+    const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
+    const std::vector<LightCamera> cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px_});
+    {
+        const auto pass = timers_.pass("smoothies/depth map");
+        depthMap_.render(inputs.casters, scene, cameras, mapSize_px_);
+    }
+
+    hasSmoothies_ = hasSize(light) && !cameras.empty();
+    if (hasSmoothies_) {
+        std::vector<SmoothieConstants> constants;
+        for (const LightCamera& camera : cameras) constants.push_back(constantsOf(light, camera, scene));
+        constants_.write(constants);
+        allocate(int(cameras.size()));
+
+        std::vector<SilhouetteSource> sources;
+        for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
+            const Caster& caster = inputs.casters[i];
+            if (caster.casts && caster.alphaMask.texture == 0)
+                sources.push_back({caster.mesh, scene.lightFromMesh[i]});
+        }
+        // What receives but does not cast is drawn by itself: smoothies need to know how far away it is.
+        std::vector<Caster> receivers(inputs.casters.begin(), inputs.casters.end());
+        for (Caster& caster : receivers) caster.casts = !caster.casts && caster.receives;
+        hasReceiverMap_ = std::ranges::any_of(receivers, &Caster::casts);
+        if (hasReceiverMap_) {
+            const auto pass = timers_.pass("smoothies/receiver map");
+            receiverMap_.render(receivers, scene, cameras, mapSize_px_);
+        }
+        {
+            const auto pass = timers_.pass("smoothies/silhouettes");
+            const unsigned instances = device_.layerFromVertexShader ? unsigned(cameras.size()) : 1;
+            silhouettes_.extract(sources, distant ? LightPoint(0, 0, 1, 0) : LightPoint(0, 0, 0, 1),
+                                 {.verticesPerEdge = unsigned(verticesPerSmoothie), .instances = instances});
+            findVertexNormals(distant);
+        }
+        {
+            const auto pass = timers_.pass("smoothies/outer half");
+            gl::beginPass(outerFramebuffer_.name(),
+                          {.width_px = mapSize_px_, .height_px = mapSize_px_, .blendEquation = GL_MIN});
+            drawSmoothies(outerProgram_, outerFramebuffer_, outer_, nullptr);
+        }
+        if (inner_) {
+            const auto pass = timers_.pass("smoothies/inner half");
+            gl::beginPass(innerFramebuffer_.name(), {.width_px = mapSize_px_,
+                                                     .height_px = mapSize_px_,
+                                                     .depthTest = GL_LESS,
+                                                     .depthWrite = true});
+            drawSmoothies(innerProgram_, innerFramebuffer_, innerEdges_, &innerOrder_);
+        }
+    }
+
+    const auto pass = timers_.pass("smoothies/resolve");
+    resolve_.use();
+    view_.bind(inputs.view, lightFromWorldMatrix);
+    depthMap_.bind(3, 0);
+    if (hasSmoothies_) constants_.bind(1);
+    outer_.bind(4);
+    innerEdges_.bind(5);
+    bindVisibility(out, 0);
+    glUniform1i(0, depthMap_.count());
+    glUniform1i(1, distant);
+    glUniform1i(2, isOneSided(light));
+    glUniform1i(3, hasSmoothies_);
+    gl::dispatchPixels(out.width_px(), out.height_px());
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void Smoothies::inspect(InspectionVisitor& visitor) const {
+    visitor.texture(
+        {.name = "depth map", .texture = depthMap_.texture().name(), .layers = depthMap_.count()});
+    if (!hasSmoothies_) return;
+    visitor.texture({.name = "smoothie depth (red) and visibility (green)",
+                     .texture = outer_.name(),
+                     .layers = depthMap_.count()});
+    if (inner_) {
+        visitor.texture({.name = "way to the closest edge in texels (red, green) and its nearness (blue)",
+                         .texture = innerEdges_.name(),
+                         .layers = depthMap_.count(),
+                         .black = -32,
+                         .white = 32});
+    }
+}
+
+Statistics Smoothies::statistics() const {
+    Statistics statistics;
+    statistics.counts.push_back({"maps", double(depthMap_.count())});
+    if (hasSmoothies_) {
+        statistics.counts.push_back({"edges", double(silhouettes_.edgeCount())});
+        statistics.counts.push_back({"silhouette edges", double(silhouettes_.countFound())});
+    }
+    statistics.passes = passTimes(timers_);
+    return statistics;
+}
+
+}  // namespace penumbra
