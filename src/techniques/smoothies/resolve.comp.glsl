@@ -23,9 +23,28 @@ layout(location = 3) uniform bool hasSmoothies;  // without: a hard shadow
 const float toleranceTexels = 1.0;
 const float tolerancePrecision = 4e-6;  // some 32 ulps: a 32-bit depth buffer and three transforms
 
-bool isFacing(Receiver receiver) {
-    vec3 towardsLight = isDistant ? vec3(0.0, 0.0, 1.0) : -receiver.posLight;
-    return dot(receiver.normalLight, towardsLight) > 0.0 && (!isOneSided || receiver.posLight.z < 0.0);
+// A sliver of a light above the horizon is taken for none: the quotient of two such parts is all noise.
+const float leastPart = 0.004;
+
+// The part of the light above the receiver's horizon. A hard shadow knows the centre alone.
+float partAboveHorizon(Receiver receiver) {
+    if (isOneSided && receiver.posLight.z >= 0.0) return 0.0;
+    vec3 normal = receiver.normalLight;
+    float elevation = dot(normal, isDistant ? vec3(0.0, 0.0, 1.0) : -receiver.posLight);
+    if (!hasSmoothies) return elevation > 0.0 ? 1.0 : 0.0;
+    SmoothieConstants c = smoothies[0];
+    float half_m, spread = 0.0;
+    if (c.settings.x == shapeDistant) {
+        half_m = c.widths.x * sqrt(max(1.0 - elevation * elevation, 0.0));
+    } else if (c.settings.x == shapeSphere) {
+        half_m = c.widths.x;
+    } else {
+        vec3 normalFace = mat3(lightCameras[0].faceFromLight) * normal;
+        float x = abs(dot(c.halfX.xyz, normalFace)), y = abs(dot(c.halfY.xyz, normalFace));
+        half_m = c.settings.x == shapeDisk ? length(vec2(x, y)) : x + y;
+        spread = min(x, y) / max(x + y, 1e-30);
+    }
+    return half_m > 0.0 ? lightVisible(0, elevation / half_m, spread) : float(elevation > 0.0);
 }
 
 struct Lookup {
@@ -45,36 +64,24 @@ bool isBehindBlocker(Lookup l, ivec2 texel, float receiver_m) {
     return receiver_m - l.tolerance_m > depthFace_m(l.camera, stored);
 }
 
-// What comes past the closest edge to a receiver that the light's centre does not see.
-float innerVisibility(Lookup l, ivec2 texel, float receiver_m, int size_px) {
+// What comes past an edge to a receiver that the light's centre does not see: the edge that is closest to `texel`,
+// measured from the receiver itself.
+float innerVisibility(Lookup l, ivec2 texel, vec2 place_px, int size_px) {
     vec4 closest = texelFetch(innerSmoothies, ivec3(texel, l.camera), 0);
-    if (closest.w == 0.0 || !(receiver_m > 0.0 || isOrthographic(l.camera))) return 0.0;
-    float receiver = nearnessOf(l.camera, receiver_m);
-    if (receiver >= closest.z) return 0.0;
-    float distance_px = length(closest.xy);
-    vec2 outward = closest.xy / max(distance_px, 1e-6);
-    LightExtent extent = lightExtent(l.camera, placeOf(l.camera, (vec2(texel) + 0.5) / float(size_px)), outward);
+    float receiver = nearnessOf(l.camera, l.point.posFace.z);
+    if (closest.w == 0.0 || receiver >= closest.z) return 0.0;
+    vec2 outward = closest.xy / max(length(closest.xy), 1e-6);
+    float distance_px = max(dot(vec2(texel) + 0.5 + closest.xy - place_px, outward), 0.0);
+    LightExtent extent = lightExtent(l.camera, placeOf(l.camera, l.point.uv), outward);
     float width = smoothieWidth(l.camera, extent.half_m, closest.z, receiver);
     float x = distance_px * lightCameras[l.camera].depth.w / width;
     if (x >= 1.0) return 0.0;
     // The receiver's plane must be lit just beyond the edge, or else something under the blocker covers it too.
-    vec2 beyond_px = vec2(texel) + 0.5 + closest.xy + 1.5 * outward;
-    ivec2 beyond = clamp(ivec2(floor(beyond_px)), ivec2(0), ivec2(size_px - 1));
+    ivec2 beyond = ivec2(floor(vec2(texel) + 0.5 + closest.xy + 1.5 * outward));
+    beyond = clamp(beyond, ivec2(0), ivec2(size_px - 1));
     float far_m = 2.0 * (distance_px + 2.0) * l.point.texel_m;
     float beyond_m = receiverPlaneDepth_m(l.camera, l.point, l.normalFace, (vec2(beyond) + 0.5) / float(size_px), far_m);
-    if (isBehindBlocker(l, beyond, beyond_m)) return 0.0;
-    return falloff(l.camera, -x, extent.spread);
-}
-
-float texelVisibility(Lookup l, ivec2 texel, int size_px) {
-    float receiver_m = receiverDepth_m(l, (vec2(texel) + 0.5) / float(size_px));
-    if (isBehindBlocker(l, texel, receiver_m)) {
-        return hasSmoothies && smoothies[l.camera].settings.w == 1
-                   ? innerVisibility(l, texel, receiver_m, size_px) : 0.0;
-    }
-    if (!hasSmoothies) return 1.0;
-    vec2 smoothie = texelFetch(outerSmoothies, ivec3(texel, l.camera), 0).rg;
-    return receiver_m - l.tolerance_m > smoothie.x ? smoothie.y : 1.0;
+    return isBehindBlocker(l, beyond, beyond_m) ? 0.0 : falloff(l.camera, -x, extent.spread);
 }
 
 float visibilityAt(Receiver receiver) {
@@ -87,15 +94,33 @@ float visibilityAt(Receiver receiver) {
         l.normalFace = mat3(lightCameras[camera].faceFromLight) * receiver.normalLight;
         l.tolerance_m = toleranceTexels * l.point.texel_m + tolerancePrecision * length(l.point.posFace);
         vec2 place_px = l.point.uv * float(size_px);
-        if (!hasSmoothies) return texelVisibility(l, ivec2(place_px), size_px);
+        if (!hasSmoothies) {
+            ivec2 texel = ivec2(place_px);
+            return isBehindBlocker(l, texel, receiverDepth_m(l, (vec2(texel) + 0.5) / float(size_px))) ? 0.0 : 1.0;
+        }
         ivec2 base = ivec2(floor(place_px - 0.5));
         vec2 f = place_px - 0.5 - vec2(base);
-        ivec2 limit = ivec2(size_px - 1);
-        vec4 v;
+        float seen = 0.0, behind = 0.0, most = 0.0;
+        ivec2 behindTexel = base;
         for (int i = 0; i < 4; ++i) {
-            v[i] = texelVisibility(l, clamp(base + ivec2(i & 1, i >> 1), ivec2(0), limit), size_px);
+            ivec2 offset = ivec2(i & 1, i >> 1);
+            vec2 weights = mix(1.0 - f, f, vec2(offset));
+            float weight = weights.x * weights.y;
+            ivec2 texel = clamp(base + offset, ivec2(0), ivec2(size_px - 1));
+            float receiver_m = receiverDepth_m(l, (vec2(texel) + 0.5) / float(size_px));
+            if (isBehindBlocker(l, texel, receiver_m)) {
+                behind += weight;
+                if (weight > most) behindTexel = texel;
+                most = max(most, weight);
+            } else {
+                vec2 smoothie = texelFetch(outerSmoothies, ivec3(texel, camera), 0).rg;
+                seen += weight * (receiver_m - l.tolerance_m > smoothie.x ? smoothie.y : 1.0);
+            }
         }
-        return mix(mix(v[0], v[1], f.x), mix(v[2], v[3], f.x), f.y);
+        if (behind > 0.0 && smoothies[camera].settings.w == 1) {
+            seen += behind * innerVisibility(l, behindTexel, place_px, size_px);
+        }
+        return seen;
     }
     return 1.0;
 }
@@ -105,6 +130,11 @@ void main() {
     if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
     Receiver receiver;
     float seen = 1.0;
-    if (loadReceiver(pixel, receiver)) seen = isFacing(receiver) ? visibilityAt(receiver) : 0.0;
+    if (loadReceiver(pixel, receiver)) {
+        // Edges tell the part of the whole light that is seen. A surface's own horizon is an edge like others, which is
+        // why smoothies darken the terminator; asked for is the part of what is above that horizon.
+        float above = partAboveHorizon(receiver);
+        seen = above > leastPart ? min(visibilityAt(receiver) / above, 1.0) : 0.0;
+    }
     imageStore(visibility, pixel, vec4(seen));
 }

@@ -82,11 +82,17 @@ float diskVisible(float x) {
     return clamp(0.5 + (asin(x) + x * sqrt(max(1.0 - x * x, 0.0))) / 3.14159265, 0.0, 1.0);
 }
 
+// The exact part of the light on one side of a line at x in [-1, 1].
+float lightVisible(int camera, float x, float spread) {
+    x = clamp(x, -1.0, 1.0);
+    return smoothies[camera].settings.x == shapeRect ? rectVisible(x, spread) : diskVisible(x);
+}
+
 // Visibility at x in [-1, 1] from the penumbra's inner to its outer border; x = 0 is the edge as the centre sees it.
 float falloff(int camera, float x, float spread) {
     SmoothieConstants c = smoothies[camera];
     x = clamp(x, -1.0, 1.0);
     if (c.settings.y == falloffLinear) return 0.5 + 0.5 * x;
     if (c.settings.y == falloffSinusoidal) return clamp(0.5 + 0.5 * sin(1.57079633 * x), 0.0, 1.0);
-    return c.settings.x == shapeRect ? rectVisible(x, spread) : diskVisible(x);
+    return lightVisible(camera, x, spread);
 }
