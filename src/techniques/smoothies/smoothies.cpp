@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "src/gl/raster_state.h"
-#include "src/techniques/smoothies/vertex_normals_io.h"
+#include "src/techniques/smoothies/smoothie_edges_io.h"
 
 namespace penumbra {
 namespace {
@@ -50,6 +50,8 @@ Smoothies::Smoothies(Device& device)
       depthMap_(device),
       receiverMap_(device),
       silhouettes_(device),
+      farthest_(device_.shaders, {"src/techniques/smoothies/farthest.comp.glsl"}),
+      build_(device_.shaders, {"src/techniques/smoothies/smoothie_edges.comp.glsl"}),
       clearNormals_(device_.shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"}, {"CLEAR"}),
       addNormals_(device_.shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"}),
       outerProgram_(
@@ -128,21 +130,52 @@ void Smoothies::allocate(int layers) {
     innerFramebuffer_ = gl::Framebuffer({&innerEdges_}, &innerOrder_, "smoothies/inner");
 }
 
-void Smoothies::findVertexNormals(bool distant) {
-    const std::size_t size_bytes = silhouettes_.vertexCount() * sizeof(glm::ivec4);
-    if (vertexNormals_.name() == 0 || vertexNormals_.size_bytes() < size_bytes) {
-        vertexNormals_ = gl::Buffer(size_bytes, "smoothies/vertex normals");
-    }
-    silhouettes_.bindEdges(0);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, silhouettes_.commands().name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, vertexNormals_.name());
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, silhouettes_.commands().name());
-    for (const gl::Program* program : {&clearNormals_, &addNormals_}) {
-        program->use();
-        if (program == &addNormals_) glUniform1i(0, distant);
+void Smoothies::buildSmoothies(bool distant) {
+    const auto reserve = [](gl::Buffer& buffer, std::size_t size_bytes, std::string_view label) {
+        if (buffer.name() == 0 || buffer.size_bytes() < size_bytes) buffer = gl::Buffer(size_bytes, label);
+    };
+    const auto cameras = std::size_t(depthMap_.count());
+    reserve(tiles_, cameras * tilesAcross * tilesAcross * sizeof(float), "smoothies/tiles");
+    reserve(vertexNormals_, silhouettes_.vertexCount() * sizeof(glm::ivec4), "smoothies/vertex normals");
+    reserve(smoothieEdges_, cameras * silhouettes_.edgeCount() * sizeof(SmoothieEdge), "smoothies/edges");
+    const auto bindStorage = [](GLuint block, const gl::Buffer& buffer) {
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block, buffer.name());
+    };
+    const auto dispatchEdges = [&] {
         glDispatchComputeIndirect(GLintptr(SilhouetteExtractor::dispatchOffset));
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    }
+    };
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, silhouettes_.commands().name());
+
+    // The normals of the silhouette's vertices.
+    silhouettes_.bindEdges(0);
+    bindStorage(1, silhouettes_.commands());
+    bindStorage(2, vertexNormals_);
+    clearNormals_.use();
+    dispatchEdges();
+    addNormals_.use();
+    glUniform1i(0, distant);
+    dispatchEdges();
+
+    // How far away receivers are.
+    if (hasReceiverMap_) receiverMap_.bind(1, 0);
+    depthMap_.bind(0, 0);
+    constants_.bind(1);
+    bindStorage(2, tiles_);
+    farthest_.use();
+    glUniform1i(0, hasReceiverMap_);
+    glDispatchCompute(tilesAcross, tilesAcross, GLuint(cameras));
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+
+    // The smoothies.
+    silhouettes_.bindEdges(3);
+    bindStorage(4, silhouettes_.commands());
+    bindStorage(5, vertexNormals_);
+    bindStorage(6, smoothieEdges_);
+    build_.use();
+    glUniform1i(0, GLint(cameras));
+    glUniform1ui(1, GLuint(silhouettes_.edgeCount()));
+    dispatchEdges();
 }
 
 void Smoothies::drawSmoothies(const gl::Program& program, const gl::Framebuffer& framebuffer,
@@ -161,9 +194,9 @@ void Smoothies::drawSmoothies(const gl::Program& program, const gl::Framebuffer&
     if (hasReceiverMap_) receiverMap_.bind(1, 0);
     depthMap_.bind(0, 0);
     constants_.bind(1);
-    silhouettes_.bindEdges(2);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, vertexNormals_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, smoothieEdges_.name());
     glUniform1i(0, hasReceiverMap_);
+    glUniform1ui(1, GLuint(silhouettes_.edgeCount()));
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, silhouettes_.commands().name());
     if (device_.layerFromVertexShader) {
         clearAndDraw();
@@ -173,7 +206,7 @@ void Smoothies::drawSmoothies(const gl::Program& program, const gl::Framebuffer&
         glNamedFramebufferTextureLayer(framebuffer.name(), GL_COLOR_ATTACHMENT0, color.name(), 0, layer);
         if (depth != nullptr)
             glNamedFramebufferTextureLayer(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth->name(), 0, layer);
-        glUniform1i(1, layer);
+        glUniform1i(2, layer);
         clearAndDraw();
     }
 }
@@ -216,7 +249,7 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
             const unsigned instances = device_.layerFromVertexShader ? unsigned(cameras.size()) : 1;
             silhouettes_.extract(sources, distant ? LightPoint(0, 0, 1, 0) : LightPoint(0, 0, 0, 1),
                                  {.verticesPerEdge = unsigned(verticesPerSmoothie), .instances = instances});
-            findVertexNormals(distant);
+            buildSmoothies(distant);
         }
         {
             const auto pass = timers_.pass("smoothies/outer half");

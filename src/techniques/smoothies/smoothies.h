@@ -29,7 +29,7 @@ class Smoothies final : public Technique {
     SmoothieConstants constantsOf(const AreaLight& light, const LightCamera& camera,
                                   const LightSpaceScene& scene) const;
     void allocate(int layers);
-    void findVertexNormals(bool distant);
+    void buildSmoothies(bool distant);
     void drawSmoothies(const gl::Program& program, const gl::Framebuffer& framebuffer,
                        const gl::Texture& color, const gl::Texture* depth) const;
 
@@ -43,8 +43,8 @@ class Smoothies final : public Technique {
     DepthMap depthMap_, receiverMap_;
     bool hasReceiverMap_ = false;
     SilhouetteExtractor silhouettes_;
-    gl::Program clearNormals_, addNormals_, outerProgram_, innerProgram_, resolve_;
-    gl::Buffer vertexNormals_;
+    gl::Program farthest_, build_, clearNormals_, addNormals_, outerProgram_, innerProgram_, resolve_;
+    gl::Buffer tiles_, vertexNormals_, smoothieEdges_;
     gl::VertexArrayHandle noVertices_;
     gl::Texture outer_, innerEdges_, innerOrder_;
     gl::Framebuffer outerFramebuffer_, innerFramebuffer_;

@@ -5,7 +5,7 @@
 layout(local_size_x = 64) in;
 
 #include "src/geometry/silhouettes_io.h"
-#include "src/techniques/smoothies/vertex_normals_io.h"
+#include "src/techniques/smoothies/smoothie_edges_io.h"
 
 layout(std430, binding = 0) readonly buffer Silhouettes { SilhouetteEdge silhouettes[]; };
 layout(std430, binding = 1) readonly buffer Commands { SilhouetteCommands commands; };
