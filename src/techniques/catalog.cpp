@@ -27,8 +27,6 @@ constexpr std::array entries = {
     Entry{{"hard", "one shadow map from the light's centre: no penumbra (Williams 1978)", 0.30f}, make<HardShadowMap>},
     Entry{{"pcf", "a shadow map filtered over a fixed kernel (Reeves et al. 1987)", 0.30f}, make<Pcf>},
     Entry{{"pcss", "blocker search, then a filter as wide as the penumbra (Fernando 2005)", 0.02f}, make<Pcss>},
-    Entry{{"hard", "one shadow map from the light's centre: no penumbra (Williams 1978)", 0.30f},
-          make<HardShadowMap>},
     Entry{{"smoothies", "geometry on silhouettes fades the edges of a shadow map (Chan and Durand 2003)",
            0.02f},
           make<Smoothies>},

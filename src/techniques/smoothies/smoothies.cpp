@@ -231,10 +231,20 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
         allocate(int(cameras.size()));
 
         std::vector<SilhouetteSource> sources;
+        bool anyMasked = false;
         for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
             const Caster& caster = inputs.casters[i];
-            if (caster.casts && caster.alphaMask.texture == 0)
-                sources.push_back({caster.mesh, scene.lightFromMesh[i]});
+            if (!caster.casts) continue;
+            const bool masked = caster.alphaMask.texture != 0;
+            anyMasked = anyMasked || masked;
+            if (!masked) sources.push_back({caster.mesh, scene.lightFromMesh[i]});
+        }
+        if (anyMasked && !saidMasked_) {
+            device_.log.write(
+                LogLevel::info,
+                "smoothies: casters with an alpha mask have no silhouette edges; their shadows get the "
+                "map's 2x2 filter and no penumbra");
+            saidMasked_ = true;
         }
         // What receives but does not cast is drawn by itself: smoothies need to know how far away it is.
         std::vector<Caster> receivers(inputs.casters.begin(), inputs.casters.end());

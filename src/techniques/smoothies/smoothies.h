@@ -52,6 +52,7 @@ class Smoothies final : public Technique {
     ViewBinding view_;
     gl::PassTimers timers_;
     bool hasSmoothies_ = false;
+    bool saidMasked_ = false;  ///< once is enough
 };
 
 }  // namespace penumbra
