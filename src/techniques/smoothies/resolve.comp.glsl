@@ -11,7 +11,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/smoothies/smoothies.glsl"
 
 layout(binding = 4) uniform sampler2DArray outerSmoothies;
-layout(binding = 5) uniform sampler2DArray innerSmoothies;
+#define INNER_UNIT 5
+#include "src/techniques/smoothies/opposite.glsl"
 layout(binding = 0) uniform writeonly image2D visibility;
 layout(location = 0) uniform int mapCount;
 layout(location = 1) uniform bool isDistant;
@@ -66,22 +67,25 @@ bool isBehindBlocker(Lookup l, ivec2 texel, float receiver_m) {
 
 // What comes past an edge to a receiver that the light's centre does not see: the edge that is closest to `texel`,
 // measured from the receiver itself.
-float innerVisibility(Lookup l, ivec2 texel, vec2 place_px, int size_px) {
+float innerVisibility(Lookup l, ivec2 texel, int size_px) {
     vec4 closest = texelFetch(innerSmoothies, ivec3(texel, l.camera), 0);
     float receiver = nearnessOf(l.camera, l.point.posFace.z);
     if (closest.w == 0.0 || receiver >= closest.z) return 0.0;
-    vec2 outward = closest.xy / max(length(closest.xy), 1e-6);
-    float distance_px = max(dot(vec2(texel) + 0.5 + closest.xy - place_px, outward), 0.0);
-    LightExtent extent = lightExtent(l.camera, placeOf(l.camera, l.point.uv), outward);
+    vec2 place = placeOf(l.camera, l.point.uv);
+    vec2 edge = placeOfTexel(l.camera, texel, size_px) + closest.xy;
+    vec2 outward = closest.xy / max(length(closest.xy), 1e-30);
+    float distance_ = max(dot(edge - place, outward), 0.0);
+    LightExtent extent = lightExtent(l.camera, place, outward);
     float width = smoothieWidth(l.camera, extent.half_m, closest.z, receiver);
-    float x = distance_px * lightCameras[l.camera].depth.w / width;
-    if (x >= 1.0) return 0.0;
+    if (distance_ >= width) return 0.0;
     // The receiver's plane must be lit just beyond the edge, or else something under the blocker covers it too.
-    ivec2 beyond = ivec2(floor(vec2(texel) + 0.5 + closest.xy + 1.5 * outward));
-    beyond = clamp(beyond, ivec2(0), ivec2(size_px - 1));
-    float far_m = 2.0 * (distance_px + 2.0) * l.point.texel_m;
+    float windowTexel = lightCameras[l.camera].depth.w;
+    ivec2 beyond = texelOf(l.camera, edge + 1.5 * windowTexel * outward, size_px);
+    float far_m = 2.0 * (distance_ / windowTexel + 2.0) * l.point.texel_m;
     float beyond_m = receiverPlaneDepth_m(l.camera, l.point, l.normalFace, (vec2(beyond) + 0.5) / float(size_px), far_m);
-    return isBehindBlocker(l, beyond, beyond_m) ? 0.0 : falloff(l.camera, -x, extent.spread);
+    if (isBehindBlocker(l, beyond, beyond_m)) return 0.0;
+    return min(falloff(l.camera, -distance_ / width, extent.spread) +
+                   oppositeVisibility(l.camera, place, place, outward, width, receiver), 1.0);
 }
 
 float visibilityAt(Receiver receiver) {
@@ -118,7 +122,7 @@ float visibilityAt(Receiver receiver) {
             }
         }
         if (behind > 0.0 && smoothies[camera].settings.w == 1) {
-            seen += behind * innerVisibility(l, behindTexel, place_px, size_px);
+            seen += behind * innerVisibility(l, behindTexel, size_px);
         }
         return seen;
     }

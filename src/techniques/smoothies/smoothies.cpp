@@ -261,12 +261,6 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
                                  {.verticesPerEdge = unsigned(verticesPerSmoothie), .instances = instances});
             buildSmoothies(distant);
         }
-        {
-            const auto pass = timers_.pass("smoothies/outer half");
-            gl::beginPass(outerFramebuffer_.name(),
-                          {.width_px = mapSize_px_, .height_px = mapSize_px_, .blendEquation = GL_MIN});
-            drawSmoothies(outerProgram_, outerFramebuffer_, outer_, nullptr);
-        }
         if (inner_) {
             const auto pass = timers_.pass("smoothies/inner half");
             gl::beginPass(innerFramebuffer_.name(), {.width_px = mapSize_px_,
@@ -274,6 +268,13 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
                                                      .depthTest = GL_LESS,
                                                      .depthWrite = true});
             drawSmoothies(innerProgram_, innerFramebuffer_, innerEdges_, &innerOrder_);
+        }
+        {
+            const auto pass = timers_.pass("smoothies/outer half");
+            gl::beginPass(outerFramebuffer_.name(),
+                          {.width_px = mapSize_px_, .height_px = mapSize_px_, .blendEquation = GL_MIN});
+            if (inner_) innerEdges_.bind(2);
+            drawSmoothies(outerProgram_, outerFramebuffer_, outer_, nullptr);
         }
     }
 
@@ -301,11 +302,11 @@ void Smoothies::inspect(InspectionVisitor& visitor) const {
                      .texture = outer_.name(),
                      .layers = depthMap_.count()});
     if (inner_) {
-        visitor.texture({.name = "way to the closest edge in texels (red, green) and its nearness (blue)",
+        visitor.texture({.name = "way to the closest edge (red, green) and its nearness (blue)",
                          .texture = innerEdges_.name(),
                          .layers = depthMap_.count(),
-                         .black = -32,
-                         .white = 32});
+                         .black = -0.1f,
+                         .white = 0.1f});
     }
 }
 

@@ -36,6 +36,15 @@ vec2 placeOf(int camera, vec2 uv) {
     return uv / window.zw + window.xy;
 }
 
+ivec2 texelOf(int camera, vec2 place, int size_px) {
+    vec4 window = lightCameras[camera].window;
+    return clamp(ivec2(floor((place - window.xy) * window.zw * float(size_px))), ivec2(0), ivec2(size_px - 1));
+}
+
+vec2 placeOfTexel(int camera, ivec2 texel, int size_px) {
+    return placeOf(camera, (vec2(texel) + 0.5) / float(size_px));
+}
+
 // The light's extent along a direction in the window, and how it is spread: for a rect the part (of both halves) along
 // its shorter-looking axis, 0 where it is seen edge on and 1/2 where both count alike.
 struct LightExtent {
