@@ -54,9 +54,11 @@ class Mesh {
     std::uint32_t uvBuffer() const;
     std::uint32_t indexBuffer() const;
 
+    struct Internals;
+    Internals& internals() const { return *internals_; }
+
   private:
-    struct State;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<Internals> internals_;
 };
 
 /// A caster's holes: fragments whose alpha is below the cutoff let light through.

@@ -2,11 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
-#include "penumbra/caster.h"
 #include "penumbra/device.h"
-#include "src/gl/buffer.h"
+#include "src/geometry/mesh_internals.h"
 
 namespace penumbra {
 namespace {
@@ -35,16 +33,7 @@ Box boundsOf(std::span<const Vec3> positions) {
 
 }  // namespace
 
-struct Mesh::State {
-    std::vector<Vec3> positions;
-    std::vector<std::uint32_t> indices;
-    std::vector<Vec2> uvs;
-    Box bounds;
-    std::uint64_t revision = 0;
-    gl::Buffer positionBuffer, uvBuffer, indexBuffer;
-};
-
-Mesh::Mesh(Device&, const Source& source) : state_(std::make_unique<State>()) {
+Mesh::Mesh(Device&, const Source& source) : internals_(std::make_unique<Internals>()) {
     requireFinite(source.positions);
     require(source.indices.size() % 3 == 0, "the number of indices is no multiple of three");
     require(source.uvs.empty() || source.uvs.size() == source.positions.size(),
@@ -53,13 +42,13 @@ Mesh::Mesh(Device&, const Source& source) : state_(std::make_unique<State>()) {
         require(source.indices[i] < source.positions.size(),
                 "index " + std::to_string(i) + " refers to no position");
     }
-    state_->positions.assign(source.positions.begin(), source.positions.end());
-    state_->indices.assign(source.indices.begin(), source.indices.end());
-    state_->uvs.assign(source.uvs.begin(), source.uvs.end());
-    if (!source.indices.empty()) state_->bounds = boundsOf(source.positions);
-    state_->positionBuffer = gl::Buffer(std::as_bytes(positions()), "mesh positions");
-    state_->indexBuffer = gl::Buffer(std::as_bytes(indices()), "mesh indices");
-    if (!source.uvs.empty()) state_->uvBuffer = gl::Buffer(std::as_bytes(uvs()), "mesh uvs");
+    internals_->positions.assign(source.positions.begin(), source.positions.end());
+    internals_->indices.assign(source.indices.begin(), source.indices.end());
+    internals_->uvs.assign(source.uvs.begin(), source.uvs.end());
+    if (!source.indices.empty()) internals_->bounds = boundsOf(source.positions);
+    internals_->positionBuffer = gl::Buffer(std::as_bytes(positions()), "mesh positions");
+    internals_->indexBuffer = gl::Buffer(std::as_bytes(indices()), "mesh indices");
+    if (!source.uvs.empty()) internals_->uvBuffer = gl::Buffer(std::as_bytes(uvs()), "mesh uvs");
 }
 
 Mesh::Mesh(Mesh&&) noexcept = default;
@@ -67,21 +56,38 @@ Mesh& Mesh::operator=(Mesh&&) noexcept = default;
 Mesh::~Mesh() = default;
 
 void Mesh::deform(std::span<const Vec3> positions) {
-    require(positions.size() == state_->positions.size(), "deform: as many positions as at first are needed");
+    require(positions.size() == internals_->positions.size(),
+            "deform: as many positions as at first are needed");
     requireFinite(positions);
-    std::ranges::copy(positions, state_->positions.begin());
-    if (!state_->indices.empty()) state_->bounds = boundsOf(positions);
-    if (!positions.empty()) state_->positionBuffer.write(std::as_bytes(positions));
-    ++state_->revision;
+    std::ranges::copy(positions, internals_->positions.begin());
+    if (!internals_->indices.empty()) internals_->bounds = boundsOf(positions);
+    if (!positions.empty()) internals_->positionBuffer.write(std::as_bytes(positions));
+    ++internals_->revision;
 }
 
-std::span<const Vec3> Mesh::positions() const { return state_->positions; }
-std::span<const std::uint32_t> Mesh::indices() const { return state_->indices; }
-std::span<const Vec2> Mesh::uvs() const { return state_->uvs; }
-const Box& Mesh::bounds() const { return state_->bounds; }
-std::uint64_t Mesh::revision() const { return state_->revision; }
-std::uint32_t Mesh::positionBuffer() const { return state_->positionBuffer.name(); }
-std::uint32_t Mesh::uvBuffer() const { return state_->uvBuffer.name(); }
-std::uint32_t Mesh::indexBuffer() const { return state_->indexBuffer.name(); }
+std::span<const Vec3> Mesh::positions() const {
+    return internals_->positions;
+}
+std::span<const std::uint32_t> Mesh::indices() const {
+    return internals_->indices;
+}
+std::span<const Vec2> Mesh::uvs() const {
+    return internals_->uvs;
+}
+const Box& Mesh::bounds() const {
+    return internals_->bounds;
+}
+std::uint64_t Mesh::revision() const {
+    return internals_->revision;
+}
+std::uint32_t Mesh::positionBuffer() const {
+    return internals_->positionBuffer.name();
+}
+std::uint32_t Mesh::uvBuffer() const {
+    return internals_->uvBuffer.name();
+}
+std::uint32_t Mesh::indexBuffer() const {
+    return internals_->indexBuffer.name();
+}
 
 }  // namespace penumbra

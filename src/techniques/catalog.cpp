@@ -9,6 +9,7 @@
 #include "src/techniques/shadow_map/pcf.h"
 #include "src/techniques/shadow_map/pcss.h"
 #include "src/techniques/shadow_width_map/shadow_width_map.h"
+#include "src/techniques/smoothies/smoothies.h"
 
 namespace penumbra {
 namespace {
@@ -29,6 +30,9 @@ constexpr std::array entries = {
     Entry{{"pcss", "blocker search, then a filter as wide as the penumbra (Fernando 2005)", 0.02f}, make<Pcss>},
     Entry{{"shadow-width", "distances to the shadow's border beside one shadow map (Kirsch and Döllner 2003)", 0.03f},
           make<ShadowWidthMap>},
+    Entry{{"smoothies", "geometry on silhouettes fades the edges of a shadow map (Chan and Durand 2003)",
+           0.02f},
+          make<Smoothies>},
 };
 
 constexpr auto infos = [] {
@@ -39,7 +43,9 @@ constexpr auto infos = [] {
 
 }  // namespace
 
-std::span<const TechniqueInfo> techniqueCatalog() { return infos; }
+std::span<const TechniqueInfo> techniqueCatalog() {
+    return infos;
+}
 
 std::unique_ptr<Technique> makeTechnique(Device& device, std::string_view name) {
     std::string names;
@@ -47,7 +53,8 @@ std::unique_ptr<Technique> makeTechnique(Device& device, std::string_view name) 
         if (entry.info.name == name) return entry.make(device);
         names += (names.empty() ? "" : ", ") + std::string(entry.info.name);
     }
-    throw Error(Error::Kind::unknownName, "there is no technique '" + std::string(name) + "'; there are: " + names);
+    throw Error(Error::Kind::unknownName,
+                "there is no technique '" + std::string(name) + "'; there are: " + names);
 }
 
 }  // namespace penumbra

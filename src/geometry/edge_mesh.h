@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "penumbra/caster.h"
+#include "src/geometry/edge_topology.h"
+#include "src/gl/buffer.h"
+
+namespace penumbra {
+
+/// The edges of a mesh on the device. They depend on what the mesh was made of, not on how it is deformed:
+/// positions that were equal at first are taken to move together.
+class EdgeMesh {
+  public:
+    explicit EdgeMesh(const Mesh& mesh);
+
+    std::size_t edgeCount() const { return edgeCount_; }
+    const gl::Buffer& edges() const { return edges_; }  ///< EdgeTopology::Edge
+    const gl::Buffer& faces() const { return faces_; }  ///< EdgeTopology::faces
+
+  private:
+    std::size_t edgeCount_;
+    gl::Buffer edges_, faces_;
+};
+
+/// The mesh's edges, found at the first call and kept with the mesh for as long as it lives.
+const EdgeMesh& edgesOf(const Mesh& mesh);
+
+}  // namespace penumbra

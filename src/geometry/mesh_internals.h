@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the library keeps for a mesh; hosts see penumbra::Mesh alone.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "penumbra/caster.h"
+#include "src/geometry/edge_mesh.h"
+#include "src/gl/buffer.h"
+
+namespace penumbra {
+
+struct Mesh::Internals {
+    std::vector<Vec3> positions;
+    std::vector<std::uint32_t> indices;
+    std::vector<Vec2> uvs;
+    Box bounds;
+    std::uint64_t revision = 0;
+    gl::Buffer positionBuffer, uvBuffer, indexBuffer;
+    std::unique_ptr<const EdgeMesh> edges;  ///< see edgesOf
+};
+
+}  // namespace penumbra

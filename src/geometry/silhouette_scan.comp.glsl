@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 450
+// Where each block's silhouette edges go in the list: the number of those in the blocks before it.
+layout(local_size_x = 256) in;
+
+#include "src/geometry/silhouettes_io.h"
+
+const uint wordsPerBlock = 8u;
+
+layout(std430, binding = 0) readonly buffer Marks { uint marks[]; };
+layout(std430, binding = 1) writeonly buffer Offsets { uint offsets[]; };
+layout(std430, binding = 2) writeonly buffer Commands { SilhouetteCommands commands; };
+
+layout(location = 0) uniform uint blockCount;
+layout(location = 1) uniform uint verticesPerEdge;
+layout(location = 2) uniform uint instances;
+
+shared uint sums[256];
+
+uint countIn(uint block) {
+    uint count = 0u;
+    for (uint i = 0u; i < wordsPerBlock; ++i) count += uint(bitCount(marks[block * wordsPerBlock + i]));
+    return count;
+}
+
+void main() {
+    // Each lane adds up a run of blocks, then all lanes' sums are scanned (Hillis and Steele 1986).
+    uint lane = gl_LocalInvocationID.x;
+    uint run = (blockCount + 255u) / 256u;
+    uint begin = min(lane * run, blockCount);
+    uint end = min(begin + run, blockCount);
+    uint sum = 0u;
+    for (uint block = begin; block < end; ++block) sum += countIn(block);
+    sums[lane] = sum;
+    barrier();
+    for (uint step = 1u; step < 256u; step *= 2u) {
+        uint before = lane >= step ? sums[lane - step] : 0u;
+        barrier();
+        sums[lane] += before;
+        barrier();
+    }
+
+    uint offset = sums[lane] - sum;
+    for (uint block = begin; block < end; ++block) {
+        offsets[block] = offset;
+        offset += countIn(block);
+    }
+    if (lane == 255u) {
+        uint count = sums[255];
+        commands.vertexCount = count * verticesPerEdge;
+        commands.instanceCount = instances;
+        commands.firstVertex = 0u;
+        commands.baseInstance = 0u;
+        commands.groupsX = (count + 63u) / 64u;
+        commands.groupsY = 1u;
+        commands.groupsZ = 1u;
+        commands.edgeCount = count;
+    }
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// How wide a smoothie is, and how visibility changes across it. Includer defines SMOOTHIE_BLOCK and what depth_map.glsl
+// needs.
+//
+// A "place" is a point in a light camera's window: tangents (x/z, y/z), or metres where the camera is orthographic.
+// "Nearness" is 1/z of a perspective camera and -z of an orthographic one. Both are linear in the window along a
+// straight edge. Let an edge at nearness nb shade a receiver at nearness nr. A point of the light s (in face space, from
+// the light's centre) throws the edge's shadow not to the edge's place q but to
+//     q - (s.xy - s.z q) (nb - nr)                   (perspective)
+// so that half the penumbra's width across the edge's normal n is
+//     w = h (nb - nr),   h = max over s of dot(n, s.xy - s.z q).
+// With t = h nb that is t (1 - b/r): equation 1, with the size of the smoothie that the light asks for. For a distant
+// light h is the tangent of half its angle.
+#include "src/techniques/common/depth_map.glsl"
+#include "src/techniques/smoothies/smoothies_io.h"
+
+layout(std430, binding = SMOOTHIE_BLOCK) readonly buffer Smoothies { SmoothieConstants smoothies[]; };
+
+const int shapeRect = 0, shapeDisk = 1, shapeSphere = 2, shapeDistant = 3;
+const int falloffLight = 0, falloffLinear = 1, falloffSinusoidal = 2;
+const float noSmoothie = 3.0e38;  // a depth behind everything
+
+bool isOrthographic(int camera) { return lightCameras[camera].depth.z == 1.0; }
+
+float nearnessOf(int camera, float depth_m) { return isOrthographic(camera) ? -depth_m : 1.0 / depth_m; }
+
+// The same for a value in the depth map; where that is empty, of the farthest receiver.
+float storedNearness(int camera, float stored) {
+    if (stored == 0.0) return smoothies[camera].nearness.x;
+    vec4 depth = lightCameras[camera].depth;
+    return depth.z == 1.0 ? stored * (depth.y - depth.x) - depth.y : stored / depth.x;
+}
+
+vec2 placeOf(int camera, vec2 uv) {
+    vec4 window = lightCameras[camera].window;
+    return uv / window.zw + window.xy;
+}
+
+ivec2 texelOf(int camera, vec2 place, int size_px) {
+    vec4 window = lightCameras[camera].window;
+    return clamp(ivec2(floor((place - window.xy) * window.zw * float(size_px))), ivec2(0), ivec2(size_px - 1));
+}
+
+vec2 placeOfTexel(int camera, ivec2 texel, int size_px) {
+    return placeOf(camera, (vec2(texel) + 0.5) / float(size_px));
+}
+
+// The light's extent along a direction in the window, and how it is spread: for a rect the part (of both halves) along
+// its shorter-looking axis, 0 where it is seen edge on and 1/2 where both count alike.
+struct LightExtent {
+    float half_m;
+    float spread;
+};
+
+LightExtent lightExtent(int camera, vec2 place, vec2 normal) {
+    SmoothieConstants c = smoothies[camera];
+    if (c.settings.x == shapeDistant) return LightExtent(c.widths.x, 0.0);
+    if (c.settings.x == shapeSphere) {
+        float along = dot(place, normal);
+        return LightExtent(c.widths.x * sqrt(1.0 + along * along), 0.0);
+    }
+    float x = abs(dot(c.halfX.xy - c.halfX.z * place, normal));
+    float y = abs(dot(c.halfY.xy - c.halfY.z * place, normal));
+    if (c.settings.x == shapeDisk) return LightExtent(length(vec2(x, y)), 0.0);
+    return LightExtent(x + y, min(x, y) / max(x + y, 1e-30));
+}
+
+// Half the penumbra's width in the window; never less than a texel, below which a map cannot show it.
+float smoothieWidth(int camera, float half_m, float blocker, float receiver) {
+    SmoothieConstants c = smoothies[camera];
+    bool remap = c.settings.z == 1;
+    if (c.widths.y > 0.0) {
+        // The paper's t. Orthographic cameras measure b and r from the nearest point, having no light to start from.
+        float whole = isOrthographic(camera) ? c.nearness.y - receiver : blocker;
+        return remap ? max(c.widths.y * (blocker - receiver) / max(whole, 1e-30), c.widths.z) : c.widths.y;
+    }
+    return clamp(half_m * (blocker - (remap ? receiver : c.nearness.x)), c.widths.z, c.widths.w);
+}
+
+// The part of a rect light on one side of a line at x in [-1, 1]: its projection is two boxes convolved.
+float rectVisible(float x, float spread) {
+    float flat_ = 1.0 - 2.0 * spread;  // half the plateau's width
+    float beyond = max(abs(x) - flat_, 0.0);
+    float area = 0.5 * abs(x) / (1.0 - spread);
+    if (spread > 0.0) area -= beyond * beyond / (8.0 * spread * (1.0 - spread));
+    return 0.5 + sign(x) * clamp(area, 0.0, 0.5);
+}
+
+// The part of a disk on one side of a line at x in [-1, 1].
+float diskVisible(float x) {
+    return clamp(0.5 + (asin(x) + x * sqrt(max(1.0 - x * x, 0.0))) / 3.14159265, 0.0, 1.0);
+}
+
+// The exact part of the light on one side of a line at x in [-1, 1].
+float lightVisible(int camera, float x, float spread) {
+    x = clamp(x, -1.0, 1.0);
+    return smoothies[camera].settings.x == shapeRect ? rectVisible(x, spread) : diskVisible(x);
+}
+
+// Visibility at x in [-1, 1] from the penumbra's inner to its outer border; x = 0 is the edge as the centre sees it.
+float falloff(int camera, float x, float spread) {
+    SmoothieConstants c = smoothies[camera];
+    x = clamp(x, -1.0, 1.0);
+    if (c.settings.y == falloffLinear) return 0.5 + 0.5 * x;
+    if (c.settings.y == falloffSinusoidal) return clamp(0.5 + 0.5 * sin(1.57079633 * x), 0.0, 1.0);
+    return lightVisible(camera, x, spread);
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rendering fake soft shadows with smoothies (E. Chan, F. Durand, Eurographics Symposium on Rendering 2003):
+// a shadow map, and geometry attached to the blockers' silhouettes that fades the shadow's edges. README.md
+// says what is theirs and what goes past it.
+#pragma once
+
+#include "penumbra/technique.h"
+#include "src/geometry/silhouette_extractor.h"
+#include "src/gl/pass_timers.h"
+#include "src/gl/program.h"
+#include "src/gl/texture.h"
+#include "src/gl/vertex_array.h"
+#include "src/techniques/common/depth_map.h"
+#include "src/techniques/common/view_constants.h"
+#include "src/techniques/smoothies/smoothies_io.h"
+
+namespace penumbra {
+
+class Smoothies final : public Technique {
+  public:
+    explicit Smoothies(Device& device);
+
+    void describe(ParameterVisitor& visitor) override;
+    void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
+    void inspect(InspectionVisitor& visitor) const override;
+    Statistics statistics() const override;
+
+  private:
+    SmoothieConstants constantsOf(const AreaLight& light, const LightCamera& camera,
+                                  const LightSpaceScene& scene) const;
+    void allocate(int layers);
+    void buildSmoothies(bool distant);
+    void drawSmoothies(const gl::Program& program, const gl::Framebuffer& framebuffer,
+                       const gl::Texture& color, const gl::Texture* depth) const;
+
+    int mapSize_px_ = 1024;
+    float t_ = 0;
+    bool inner_ = true;
+    bool remap_ = true;
+    int falloff_ = 0;
+
+    Device::Internals& device_;
+    DepthMap depthMap_, receiverMap_;
+    bool hasReceiverMap_ = false;
+    SilhouetteExtractor silhouettes_;
+    gl::Program farthest_, build_, clearNormals_, addNormals_, outerProgram_, innerProgram_, resolve_;
+    gl::Buffer tiles_, vertexNormals_, smoothieEdges_;
+    gl::VertexArrayHandle noVertices_;
+    gl::Texture outer_, innerEdges_, innerOrder_;
+    gl::Framebuffer outerFramebuffer_, innerFramebuffer_;
+    gl::StorageArray<SmoothieConstants> constants_;
+    ViewBinding view_;
+    gl::PassTimers timers_;
+    bool hasSmoothies_ = false;
+    bool saidMasked_ = false;  ///< once is enough
+};
+
+}  // namespace penumbra

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "studio/scene/builtin/builtin.h"
+#include "tests/support/technique_test.h"
+
+namespace penumbra::studio {
+namespace {
+
+class SmoothiesTest : public TechniqueTest {
+  public:
+    using TechniqueTest::render;
+};
+
+const Settings asPublished = {{"inner", "false"}};
+
+/// Looking straight down on a closed-form scene: see scenes_closed_form.cpp.
+Scene fromAbove(std::string_view name) {
+    return withMoment(makeBuiltin(name),
+                      [](SceneMoment& moment) { moment.cameras.erase(moment.cameras.begin()); });
+}
+
+/// The ramp of the half-plane scene along x, where the truth is V = clamp(1/2 + x).
+struct Ramp {
+    std::vector<double> x, v;
+};
+
+Ramp rampOf(const Scene& scene, const Settings& settings) {
+    constexpr PictureSize size{160, 90};
+    const LightResult result = SmoothiesTest::render("smoothies", scene, size, settings);
+    Ramp ramp;
+    for (int i = 0; i < size.width_px; ++i) {
+        ramp.x.push_back(((i + 0.5) / size.width_px - 0.5) * 3.0 * size.width_px / size.height_px);
+        ramp.v.push_back(result.visibility.at(i, size.height_px / 2));
+    }
+    return ramp;
+}
+
+double largestError(const Ramp& ramp, const std::function<double(double)>& truth) {
+    double largest = 0;
+    for (std::size_t i = 0; i < ramp.x.size(); ++i) {
+        largest = std::max(largest, std::abs(ramp.v[i] - truth(ramp.x[i])));
+    }
+    return largest;
+}
+
+// A texel of the map spans less than 0.01 m on the ground; bilinear filtering rounds the ramp's corners by as
+// much.
+constexpr double rampTolerance = 0.02;
+
+TEST_F(SmoothiesTest, InnerHalfMakesTheRampOfAHalfPlane) {
+    EXPECT_LE(largestError(rampOf(fromAbove("half-plane"), {}),
+                           [](double x) { return std::clamp(0.5 + x, 0.0, 1.0); }),
+              rampTolerance);
+}
+
+/// As published, a smoothie starts at the shadow's edge, and equation 1 makes it as wide as half the
+/// penumbra.
+TEST_F(SmoothiesTest, AsPublishedTheRampLiesOutsideTheEdge) {
+    EXPECT_LE(largestError(rampOf(fromAbove("half-plane"), asPublished),
+                           [](double x) { return std::clamp(2 * x, 0.0, 1.0); }),
+              rampTolerance);
+    EXPECT_LE(largestError(rampOf(fromAbove("half-plane"), {{"inner", "false"}, {"falloff", "sinusoidal"}}),
+                           [](double x) {
+                               return 0.5 - 0.5 * std::cos(std::numbers::pi * std::clamp(2 * x, 0.0, 1.0));
+                           }),
+              rampTolerance);
+}
+
+/// Without equation 1, alpha ignores the receiver: with the blocker half way, a fixed t makes shadows of
+/// twice the width, since 1 - b/r = 1/2.
+TEST_F(SmoothiesTest, EquationOneScalesAFixedSize) {
+    const auto widthOf = [](const char* remap) {
+        const Ramp ramp = rampOf(fromAbove("half-plane"),
+                                 {{"inner", "false"}, {"t", "0.5"}, {"remap", remap}, {"falloff", "linear"}});
+        return double(std::ranges::count_if(ramp.v, [](double v) { return v > 0.02 && v < 0.98; }));
+    };
+    EXPECT_GT(widthOf("true"), 10);
+    EXPECT_NEAR(widthOf("false") / widthOf("true"), 2, 0.15);
+}
+
+/// Disk lights, by the closed form C2.
+TEST_F(SmoothiesTest, DiskLightsHaveTheirOwnRamp) {
+    const Scene scene = withLight(fromAbove("half-plane"), [](Light& light) {
+        light.shape.shape = LightShape::disk;
+        light.shape.radius_m = 0.5f;
+    });
+    EXPECT_LE(largestError(rampOf(scene, {}),
+                           [](double x) {
+                               const double d = std::clamp(-x / 0.5, -1.0, 1.0);
+                               return (std::acos(d) - d * std::sqrt(1 - d * d)) / std::numbers::pi;
+                           }),
+              rampTolerance);
+}
+
+TEST_F(SmoothiesTest, SmallLightsAreNearTheTruth) {
+    for (const auto& [name, limit] :
+         {std::pair{"primitives", 0.06}, std::pair{"two-boxes", 0.06}, std::pair{"columns", 0.06}}) {
+        const Scene scene = makeBuiltin(name);
+        const LightResult exact = truth(scene, {240, 180});
+        EXPECT_LE(judge(exact, render("smoothies", scene, {240, 180})).penumbra_rmse, limit) << name;
+    }
+}
+
+/// Figure 8: the umbra of the published method does not shrink.
+TEST_F(SmoothiesTest, InnerHalfBeatsThePublishedMethodUnderALargeLight) {
+    const Scene scene = makeBuiltin("cylinder");
+    const LightResult exact = truth(scene);
+    const double published = judge(exact, render("smoothies", scene, defaultSize, asPublished)).penumbra_rmse;
+    EXPECT_LE(judge(exact, render("smoothies", scene)).penumbra_rmse, 0.6 * published);
+}
+
+/// Figure 7: edges stay smooth where the map is coarse.
+TEST_F(SmoothiesTest, CoarseMapsDoNotShow) {
+    const Scene scene = fromAbove("half-plane");
+    EXPECT_LE(largestError(rampOf(scene, {{"map_size", "64"}}),
+                           [](double x) { return std::clamp(0.5 + x, 0.0, 1.0); }),
+              0.06);  // a texel spans 0.1 m there
+}
+
+TEST_F(SmoothiesTest, EveryCornerOfACubeOfMapsMeets) {
+    const Scene scene = makeBuiltin("columns");
+    const std::unique_ptr<Technique> smoothies = workbench().makeTechnique("smoothies");
+    const LightResult result = render(*smoothies, scene);
+    ASSERT_GT(result.statistics.counts.front().value, 1) << "maps";
+    const VisibilityMetrics metrics = judge(truth(scene), result);
+    EXPECT_LE(metrics.leak, 0.005);
+    EXPECT_LE(metrics.false_shadow, 0.005);
+}
+
+/// Winding triangles at random, and taking away the faces that the light cannot see, changes no shadow.
+TEST_F(SmoothiesTest, BlockersNeedNeitherBeClosedNorOriented) {
+    const Scene closed = makeBuiltin("two-boxes");
+    const LightResult plain = render("smoothies", closed);
+    Scene flipped = closed, open = closed;
+    for (Mesh& mesh : flipped.meshes) {
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 6)
+            std::swap(mesh.indices[i], mesh.indices[i + 1]);
+    }
+    for (Mesh& mesh : open.meshes) {
+        std::vector<std::uint32_t> kept;
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            const glm::vec3 a = mesh.positions[mesh.indices[i]];
+            const glm::vec3 normal =
+                glm::cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a);
+            if (normal.y >= -0.5f * glm::length(normal)) {
+                kept.insert(kept.end(), {mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]});
+            }
+        }
+        mesh.indices = kept;
+    }
+    EXPECT_LE(shareOfDifferentPixels(plain, render("smoothies", flipped), 0.05f), 0.005);
+    EXPECT_LE(shareOfDifferentPixels(plain, render("smoothies", open), 0.05f), 0.005);
+}
+
+TEST_F(SmoothiesTest, MirroredInstancesCastMirroredShadows) {
+    const auto scaled = [](float x) {
+        return withMoment(makeBuiltin("two-boxes"), [=](SceneMoment& moment) {
+            for (Instance& instance : moment.instances) instance.worldFromMesh[0] *= x;
+        });
+    };
+    // The boxes are symmetric: mirrored, they are themselves, wound the other way.
+    EXPECT_LE(shareOfDifferentPixels(render("smoothies", scaled(1)), render("smoothies", scaled(-1)), 0.02f),
+              0.002);
+}
+
+TEST_F(SmoothiesTest, ASizeOfZeroIsTheHardShadow) {
+    const Scene scene = withLight(makeBuiltin("primitives"), shrinkToPoint);
+    EXPECT_EQ(render("smoothies", scene, defaultSize, {{"map_size", "1024"}}).visibility.values,
+              render("hard", scene, defaultSize, {{"map_size", "1024"}}).visibility.values);
+}
+
+/// Silhouettes of coarse meshes jump from edge to edge; shadows must not. Visibility moves anyway: what
+/// counts is the part of a step that the truth does not take.
+TEST_F(SmoothiesTest, MovesWithoutPopping) {
+    const Scene scene = makeBuiltin("moving");
+    constexpr PictureSize size{96, 72};
+    const auto rendersOf = [&](std::string_view name) {
+        const std::unique_ptr<Technique> technique = workbench().makeTechnique(name);
+        std::vector<Image> frames;
+        for (int frame = 0; frame <= 4; ++frame) {
+            frames.push_back(render(*technique, scene, size, 1.0 + frame / 60.0).visibility);
+        }
+        return frames;
+    };
+    const std::vector<Image> exact = rendersOf("reference");
+    const auto flickerOf = [&](std::string_view name) {
+        const std::vector<Image> frames = rendersOf(name);
+        double squares = 0;
+        for (std::size_t frame = 1; frame < frames.size(); ++frame) {
+            for (std::size_t i = 0; i < frames[frame].values.size(); ++i) {
+                const double step = frames[frame].values[i] - frames[frame - 1].values[i];
+                const double truthStep = exact[frame].values[i] - exact[frame - 1].values[i];
+                squares += std::pow(step - truthStep, 2);
+            }
+        }
+        return std::sqrt(squares / double((frames.size() - 1) * frames[0].values.size()));
+    };
+    const double flicker = flickerOf("smoothies"), flickerOfHard = flickerOf("hard");
+    RecordProperty("flicker", std::to_string(flicker));
+    // A hard shadow's border jumps from pixel to pixel.
+    EXPECT_LE(flicker, 0.4 * flickerOfHard) << flickerOfHard;
+}
+
+}  // namespace
+}  // namespace penumbra::studio
