@@ -6,6 +6,11 @@
 
 namespace penumbra::studio {
 
+/// A threshold that the user asked for is exceeded: exit code 1.
+struct ThresholdError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// Bad flags or arguments: exit code 2.
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;

@@ -98,6 +98,22 @@ TEST_F(CommandTest, UnknownTechniqueIsAnsweredWithTheKnownOnes) {
     EXPECT_NE(outcome.err.find("reference"), std::string::npos);
 }
 
+TEST_F(CommandTest, ExceededThresholdExitsWithOne) {
+    const std::string compare = "compare half-plane -t hard --size 64x48 --samples 16 --json ";
+    // A hard edge through a ramp from 0 to 1 is wrong by 0.29 rms, up to the noise of 16 rays.
+    const Outcome above = run(compare + "--fail-above max=1 --fail-above penumbra_rmse=0.1");
+    EXPECT_EQ(above.exitCode, 1);
+    for (const char* word : {"hard", "key", "penumbra_rmse is"}) {
+        EXPECT_NE(above.err.find(word), std::string::npos) << above.err;
+    }
+    EXPECT_EQ(above.err.find("max is"), std::string::npos) << above.err;
+    EXPECT_FALSE(above.out.empty()) << "the figures are printed all the same";
+    EXPECT_EQ(run(compare + "--fail-above penumbra_rmse=0.5 --fail-above flip=1").exitCode, 0);
+    for (const char* wrong : {"penumbra", "penumbra_rmse", "rmse=", "rmse=x", "rmse=nan", "=1"}) {
+        EXPECT_EQ(run(compare + "--fail-above " + wrong).exitCode, 2) << wrong;
+    }
+}
+
 TEST_F(CommandTest, BadInputExitsWithThree) {
     write("broken.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"nodes\": [{\"mesh\": 7}]}");
     write("lights.json",

@@ -3,11 +3,15 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "apps/penumbra/arguments.h"
 #include "apps/penumbra/commands.h"
+#include "studio/errors.h"
 #include "studio/metrics/flip.h"
 #include "studio/report/comparison.h"
 #include "studio/workbench/progress.h"
@@ -23,9 +27,68 @@ struct CompareArguments {
     std::string techniques = "all";
     std::string output;
     std::vector<std::string> settings;
+    std::vector<std::string> thresholds;
     int samples = 256;
     bool json = false;
 };
+
+/// "METRIC=VALUE"
+struct Threshold {
+    std::string metric;
+    double value = 0;
+};
+
+/// Names as in toJson.
+constexpr std::array<std::pair<std::string_view, double VisibilityMetrics::*>, 7> metricMembers = {
+    {{"rmse", &VisibilityMetrics::rmse},
+     {"mae", &VisibilityMetrics::mae},
+     {"penumbra_rmse", &VisibilityMetrics::penumbra_rmse},
+     {"p99", &VisibilityMetrics::p99},
+     {"max", &VisibilityMetrics::max},
+     {"leak", &VisibilityMetrics::leak},
+     {"false_shadow", &VisibilityMetrics::false_shadow}}};
+
+std::vector<Threshold> parseThresholds(const std::vector<std::string>& texts) {
+    std::vector<Threshold> thresholds;
+    for (const std::string& text : texts) {
+        const std::size_t equals = std::min(text.find('='), text.size());
+        Threshold threshold{.metric = text.substr(0, equals)};
+        const bool known =
+            threshold.metric == "flip" ||
+            std::ranges::any_of(metricMembers, [&](const auto& m) { return m.first == threshold.metric; });
+        const char* const end = text.data() + text.size();
+        const char* const begin = std::min(text.data() + equals + 1, end);
+        const auto parsed = std::from_chars(begin, end, threshold.value);
+        if (!known || parsed.ec != std::errc() || parsed.ptr != end || std::isnan(threshold.value)) {
+            throw UsageError(
+                fmt::format("--fail-above '{}' is not METRIC=VALUE; metrics are rmse, mae, penumbra_rmse, "
+                            "p99, max, leak, false_shadow, flip",
+                            text));
+        }
+        thresholds.push_back(threshold);
+    }
+    return thresholds;
+}
+
+/// Throws ThresholdError naming everything that is exceeded.
+void requireBelow(const Comparison& comparison, const std::vector<Threshold>& thresholds) {
+    std::string exceeded;
+    for (const TechniqueComparison& technique : comparison.techniques) {
+        for (const LightComparison& light : technique.lights) {
+            for (const Threshold& threshold : thresholds) {
+                double value = technique.flip;
+                for (const auto& [name, member] : metricMembers) {
+                    if (name == threshold.metric) value = light.metrics.*member;
+                }
+                if (value <= threshold.value) continue;
+                exceeded +=
+                    fmt::format("{}{} on light '{}': {} is {:.6g}, above {:g}", exceeded.empty() ? "" : "\n",
+                                technique.technique, light.light, threshold.metric, value, threshold.value);
+            }
+        }
+    }
+    if (!exceeded.empty()) throw ThresholdError(exceeded);
+}
 
 /// Where the unshadowed light arrives: nothing else is judged.
 std::vector<std::uint8_t> reachedPixels(const Image& reach) {
@@ -68,9 +131,10 @@ TechniqueComparison judge(const TechniqueResult& truth, TechniqueResult&& result
         }
         judged.visibility = std::move(light.visibility);
         if (judged.metrics.notFinite > 0) {
-            throw std::runtime_error(fmt::format("{}: {} visibility values are not finite, the first at pixel {}, {}",
-                                                 comparison.technique, judged.metrics.notFinite,
-                                                 judged.metrics.firstNotFinite->x, judged.metrics.firstNotFinite->y));
+            throw std::runtime_error(
+                fmt::format("{}: {} visibility values are not finite, the first at pixel {}, {}",
+                            comparison.technique, judged.metrics.notFinite, judged.metrics.firstNotFinite->x,
+                            judged.metrics.firstNotFinite->y));
         }
     }
     return comparison;
@@ -79,6 +143,7 @@ TechniqueComparison judge(const TechniqueResult& truth, TechniqueResult&& result
 void compare(const CompareArguments& arguments, const std::string& commandLine) {
     const PictureSize size = arguments.scene.pictureSize();
     const std::vector<std::string> names = techniqueNames(arguments.techniques);
+    const std::vector<Threshold> thresholds = parseThresholds(arguments.thresholds);
     if (!arguments.output.empty()) requireWritableFolder(arguments.output, true);
     const Scene scene = arguments.scene.open();
     const SceneMoment moment = scene.at(arguments.scene.time_s);
@@ -111,12 +176,14 @@ void compare(const CompareArguments& arguments, const std::string& commandLine) 
             judge(truth, workbench.run(name, *technique, moment, camera, size, timedRuns)));
     }
 
-    if (!arguments.output.empty()) writeComparison(arguments.output, comparison, pictureMetadata(commandLine));
+    if (!arguments.output.empty())
+        writeComparison(arguments.output, comparison, pictureMetadata(commandLine));
     if (arguments.json) {
         std::cout << toJson(comparison).dump(2) << "\n";
     } else {
         std::cout << toTable(comparison);
     }
+    requireBelow(comparison, thresholds);
 }
 
 }  // namespace
@@ -126,10 +193,18 @@ void addCompare(CLI::App& app, const std::string& commandLine) {
     auto arguments = std::make_shared<CompareArguments>();
     arguments->scene.addTo(*command);
     command->add_option("-t,--technique", arguments->techniques, "NAME,NAME or all")->capture_default_str();
-    command->add_option("-o,--output", arguments->output, "a folder for pictures, differences and report.html");
+    command->add_option("-o,--output", arguments->output,
+                        "a folder for pictures, differences and report.html");
     command->add_option("--samples", arguments->samples, "rays for each pixel of the reference")
         ->capture_default_str();
-    command->add_option("--set", arguments->settings, "KEY=VALUE: a parameter of the techniques; may be repeated")
+    command
+        ->add_option("--set", arguments->settings,
+                     "KEY=VALUE: a parameter of the techniques; may be repeated")
+        ->take_all();
+    command
+        ->add_option("--fail-above", arguments->thresholds,
+                     "METRIC=VALUE: exit with 1 if any technique's METRIC, named as in --json, is larger; "
+                     "may be repeated")
         ->take_all();
     command->add_flag("--json", arguments->json, "print the result as JSON instead of a table");
     command->callback([arguments, commandLine] { compare(*arguments, commandLine); });

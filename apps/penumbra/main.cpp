@@ -86,6 +86,8 @@ int main(int argc, char** argv) {
         return app.exit(success);
     } catch (const CLI::Error& error) {
         return report(usage, fmt::format("{} (see 'penumbra --help')", error.what()));
+    } catch (const studio::ThresholdError& error) {
+        return report(failed, error.what());
     } catch (const studio::UsageError& error) {
         return report(usage, error.what());
     } catch (const studio::InputError& error) {
