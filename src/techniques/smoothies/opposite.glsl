@@ -7,8 +7,8 @@ layout(binding = INNER_UNIT) uniform sampler2DArray innerSmoothies;
 // blockers that are thin.
 float oppositeVisibility(int camera, vec2 place, vec2 start, vec2 outward, float width, float receiver) {
     int size_px = textureSize(innerSmoothies, 0).x;
-    const float steps[4] = {0.17, 0.33, 0.67, 1.0};
-    for (int i = 0; i < 4; ++i) {
+    const float steps[5] = {0.05, 0.12, 0.3, 0.6, 1.0};
+    for (int i = 0; i < 5; ++i) {
         ivec2 texel = texelOf(camera, start - outward * (steps[i] * width), size_px);
         vec4 closest = texelFetch(innerSmoothies, ivec3(texel, camera), 0);
         float distance_ = length(closest.xy);

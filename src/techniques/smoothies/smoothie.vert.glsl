@@ -36,7 +36,7 @@ void main() {
     edge = smoothie.ends;
     nearness = smoothie.nearness;
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // nothing is drawn where we return early
-    if (smoothie.width == 0.0) return;
+    if (smoothie.widths == vec2(0.0)) return;
 
     LightCameraConstants c = lightCameras[camera];
     vec2 along = normalize(edge.zw - edge.xy);
@@ -50,7 +50,9 @@ void main() {
     vec2 place;
     if (corner < 6) {
         const vec2 corners[6] = {vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 0), vec2(1, 1), vec2(0, 1)};
-        float across = mix(-overlapTexels * c.depth.w, smoothie.width, corners[corner].y);
+        // Nearness is linear along the edge, and the width in nearness.
+        float width = mix(smoothie.widths.x, smoothie.widths.y, corners[corner].x);
+        float across = mix(-overlapTexels * c.depth.w, width, corners[corner].y);
         place = mix(edge.xy, edge.zw, corners[corner].x) + across * side;
     } else {
         bool atB = corner >= 12;
@@ -64,7 +66,7 @@ void main() {
         vec2 middle = side + normal;
         middle *= 2.0 / dot(middle, middle);
         vec2 arc[6] = {vec2(0.0), side, middle, vec2(0.0), middle, normal};
-        place = tip + smoothie.width * arc[corner % 6];
+        place = tip + (atB ? smoothie.widths.y : smoothie.widths.x) * arc[corner % 6];
     }
     gl_Position = vec4(2.0 * (place - c.window.xy) * c.window.zw - 1.0, 0.5, 1.0);
 }

@@ -34,24 +34,26 @@ float largestWidth(int camera, vec2 place, float blocker, float receiver) {
     return smoothieWidth(camera, half_m, blocker, receiver);
 }
 
-// No wider than the farthest surface within reach asks for. What lies hidden behind the blocker is taken to be no
-// farther than what shows around it.
-float boundByReceivers(int camera, vec2 low, vec2 high, vec2 placeA, vec2 placeB, vec2 ends, float width) {
+// No wider at either end than the farthest surface within reach asks for. What lies hidden behind the blocker is taken to
+// be no farther than what shows around it.
+vec2 boundByReceivers(int camera, vec2 placeA, vec2 placeB, vec2 nearness, vec2 widths) {
     vec4 window = lightCameras[camera].window;
     for (int i = 0; i < 2; ++i) {
-        ivec2 first = clamp(ivec2(floor((low - width - window.xy) * window.zw * float(tilesAcross))), 0, tilesAcross - 1);
-        ivec2 last = clamp(ivec2(floor((high + width - window.xy) * window.zw * float(tilesAcross))), 0, tilesAcross - 1);
+        float reach = max(widths.x, widths.y);
+        vec2 low = min(placeA, placeB) - reach, high = max(placeA, placeB) + reach;
+        ivec2 first = texelOf(camera, low, tilesAcross), last = texelOf(camera, high, tilesAcross);
         ivec2 count = last - first + 1;
-        if (count.x * count.y > 256) return width;
+        if (count.x * count.y > 256) return widths;
         float farthest = smoothies[camera].nearness.y;
         for (int y = first.y; y <= last.y; ++y) {
             for (int x = first.x; x <= last.x; ++x) {
                 farthest = min(farthest, farthestNearness[(camera * tilesAcross + y) * tilesAcross + x]);
             }
         }
-        width = min(width, max(largestWidth(camera, placeA, ends.x, farthest), largestWidth(camera, placeB, ends.y, farthest)));
+        widths = min(widths, vec2(largestWidth(camera, placeA, nearness.x, farthest),
+                                  largestWidth(camera, placeB, nearness.y, farthest)));
     }
-    return width;
+    return widths;
 }
 
 // The mean of the outward normals at a vertex, in the window. Normals of edges through a vertex are kept as the planes
@@ -67,7 +69,7 @@ vec2 vertexNormal(int camera, uint vertex, vec2 side) {
 }
 
 SmoothieEdge build(int camera, uint index) {
-    SmoothieEdge nothing = SmoothieEdge(vec4(0.0), vec4(0.0), vec2(0.0), 0.0, 0.0);
+    SmoothieEdge nothing = SmoothieEdge(vec4(0.0), vec4(0.0), vec2(0.0), vec2(0.0));
     SilhouetteEdge silhouette = silhouettes[index];
     LightCameraConstants c = lightCameras[camera];
     bool leftFirst = silhouette.weight > 0;
@@ -88,7 +90,9 @@ SmoothieEdge build(int camera, uint index) {
     if (max(ends.x, ends.y) <= farthest) return nothing;
 
     // The part of the edge whose smoothie reaches into the window.
-    float width = max(largestWidth(camera, placeA, ends.x, farthest), largestWidth(camera, placeB, ends.y, farthest));
+    vec2 widths =
+        vec2(largestWidth(camera, placeA, ends.x, farthest), largestWidth(camera, placeB, ends.y, farthest));
+    float width = max(widths.x, widths.y);
     vec2 low = c.window.xy - width, high = c.window.xy + 1.0 / c.window.zw + width;
     segment = vec2(0.0, 1.0);
     if (!clip(segment, placeA.x - low.x, placeB.x - low.x) || !clip(segment, high.x - placeA.x, high.x - placeB.x) ||
@@ -96,9 +100,10 @@ SmoothieEdge build(int camera, uint index) {
         return nothing;
     }
     vec2 stepWindow = placeB - placeA;
-    width = boundByReceivers(camera, min(placeA, placeB), max(placeA, placeB), placeA, placeB, ends, width);
     vec4 edge = vec4(placeA + segment.x * stepWindow, placeA + segment.y * stepWindow);
     vec2 nearness = vec2(mix(ends.x, ends.y, segment.x), mix(ends.x, ends.y, segment.y));
+    widths = vec2(mix(widths.x, widths.y, segment.x), mix(widths.x, widths.y, segment.y));
+    widths = boundByReceivers(camera, edge.xy, edge.zw, nearness, widths);
     float span = distance(edge.xy, edge.zw);
     if (!(span > 1e-6 * c.depth.w)) return nothing;  // points at the light: its neighbours' corners cover it
 
@@ -106,7 +111,7 @@ SmoothieEdge build(int camera, uint index) {
     vec2 side = vec2(along.y, -along.x);
     vec2 normalA = vertexNormal(camera, leftFirst ? silhouette.a : silhouette.b, side);
     vec2 normalB = vertexNormal(camera, leftFirst ? silhouette.b : silhouette.a, side);
-    return SmoothieEdge(edge, vec4(normalA, normalB), nearness, width, 0.0);
+    return SmoothieEdge(edge, vec4(normalA, normalB), nearness, widths);
 }
 
 void main() {

@@ -19,8 +19,7 @@ struct SmoothieEdge {
     vec4 ends;      // in the window, the blocker to the left
     vec4 normals;   // of the vertices at both ends, outward, unit length
     vec2 nearness;  // at both ends
-    float width;    // 0: nothing is drawn
-    float unused;
+    vec2 widths;    // at both ends; 0: nothing is drawn
 };
 
 #ifdef __cplusplus
