@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
 // Sums what the receivers see of a batch's samples (equation 2, with weights). Variants of sample_test.glsl, and
-// COLORED, where the light is textured.
+// COLORED, where the light is textured; BITS, where the comparison left the shadow values of coarse samples.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/common/view.glsl"
@@ -25,6 +25,12 @@ layout(binding = 0) uniform writeonly image2D visibility;
 layout(binding = 1, FORMAT) uniform image2D seenSoFar;
 layout(binding = 2, FORMAT) uniform image2D wholeSoFar;
 
+#ifdef BITS
+#include "src/techniques/light_sampling/subdivision_io.h"
+#include "src/techniques/light_sampling/lattice_bits.glsl"
+layout(binding = 4) uniform usampler2D shadowBits;
+#endif
+
 layout(location = 16) uniform ivec4 range;  // xy: slots of the batch to sum; z: starts the sum; w: ends it
 
 void main() {
@@ -43,6 +49,19 @@ void main() {
     }
     if (!isBehindLight(receiver)) {
         Lookup lookup = makeLookup(receiver);
+#ifdef BITS
+        // Every slot before this stage.
+        uvec4 bits = texelFetch(shadowBits, pixel, 0);
+        uint words[3] = uint[3](bits.x, bits.y, bits.z);
+        for (int slot = 0; starts && slot < plan.stages[stage].x; ++slot) {
+            int vertex = sampleOfSlot[slot];
+            LightSample light = samples[vertex];
+            precise VALUE weight = countOf(light, receiver) * WEIGHT(light);
+            BitPlace place = bitPlace(vertex);
+            whole += weight;
+            seen += (words[place.word] & place.mask) == 0u ? weight : VALUE(0.0);
+        }
+#endif
         int first = firstSlot();
         int end = min(slotCount(), range.y);
         for (int i = range.x; i < end; ++i) {

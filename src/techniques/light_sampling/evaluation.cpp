@@ -42,10 +42,9 @@ SampleEvaluation::SampleEvaluation(Device& device)
     : lookup_(device, "src/techniques/light_sampling/evaluate.comp.glsl") {}
 
 void SampleEvaluation::add(const ShadowInputs& inputs, const SampleCameras& cameras, const EvaluationOptions& options,
-                           const SampleMaps& maps, int stage, int batch, int mostSlots, bool starts, bool ends,
-                           VisibilityBuffer& out) {
-    const bool byPass = options.path == EvaluationOptions::accumulation && mostSlots > 1;
-    if (byPass || !starts || !ends) {
+                           const SampleMaps& maps, const Batch& batch, VisibilityBuffer& out) {
+    const bool byPass = options.path == EvaluationOptions::accumulation && batch.mostSlots > 1;
+    if (byPass || !batch.starts || !batch.ends) {
         const GLenum format = out.colored() ? GL_RGBA32F : GL_R32F;
         if (seen_.width_px() != out.width_px() || seen_.height_px() != out.height_px() || seen_.format() != format) {
             const gl::TextureSpec spec{.width_px = out.width_px(),
@@ -60,14 +59,17 @@ void SampleEvaluation::add(const ShadowInputs& inputs, const SampleCameras& came
         seen_.bindImage(1, GL_READ_WRITE);
         whole_.bindImage(2, GL_READ_WRITE);
     }
-    lookup_.use(inputs.light, cameras, options, out.colored() ? std::vector<std::string>{"COLORED"}
-                                                              : std::vector<std::string>{});
+    std::vector<std::string> defines;
+    if (out.colored()) defines.push_back("COLORED");
+    if (batch.usesBits) defines.push_back("BITS");
+    lookup_.use(inputs.light, cameras, options, std::move(defines));
     maps.bind();
-    maps.setBatch(stage, batch);
+    maps.setBatch(batch.stage, batch.batch);
     bindVisibility(out, 0);
-    const int step = byPass ? 1 : mostSlots;
-    for (int slot = 0; slot < mostSlots; slot += step) {
-        glUniform4i(16, slot, slot + step, starts && slot == 0, ends && slot + step >= mostSlots);
+    const int step = byPass ? 1 : batch.mostSlots;
+    for (int slot = 0; slot < batch.mostSlots; slot += step) {
+        glUniform4i(16, slot, slot + step, batch.starts && slot == 0,
+                    batch.ends && slot + step >= batch.mostSlots);
         gl::dispatchPixels(out.width_px(), out.height_px());
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
     }

@@ -41,11 +41,18 @@ class SampleEvaluation {
   public:
     explicit SampleEvaluation(Device& device);
 
-    /// Adds a batch to the sums; `starts` and `ends` say whether it is the first and the last of them. `mostSlots` is
-    /// the most that the batch can hold. Expects the view to be bound.
+    /// A batch of a stage, as one of several that make the sum.
+    struct Batch {
+        int stage = stageOfAll;
+        int batch = 0;
+        int mostSlots = 1;           ///< it can hold
+        bool starts = true, ends = true;  ///< the sum
+        bool usesBits = false;       ///< the slots before the stage come from shadow bits at texture unit 4
+    };
+
+    /// Adds a batch to the sums. Expects the view to be bound.
     void add(const ShadowInputs& inputs, const SampleCameras& cameras, const EvaluationOptions& options,
-             const SampleMaps& maps, int stage, int batch, int mostSlots, bool starts, bool ends,
-             VisibilityBuffer& out);
+             const SampleMaps& maps, const Batch& batch, VisibilityBuffer& out);
 
   private:
     SampleLookup lookup_;

@@ -62,8 +62,12 @@ void UniformLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& 
         {
             const auto pass = timers_.pass("uniform/evaluation");
             view_.bind(inputs.view, lightFromWorldMatrix);
-            evaluation_.add(inputs, cameras_, evaluationOptions_, maps_, stageOfAll, batch,
-                            std::min(maps_.capacity(), count), batch == 0, batch == batches_ - 1, out);
+            evaluation_.add(inputs, cameras_, evaluationOptions_, maps_,
+                            {.batch = batch,
+                             .mostSlots = std::min(maps_.capacity(), count),
+                             .starts = batch == 0,
+                             .ends = batch == batches_ - 1},
+                            out);
         }
     }
 }
