@@ -28,13 +28,17 @@ glm::dvec2 slopesOf(const glm::dvec3& towardsLightFace) {
     return length > steepestSlope ? slopes * (steepestSlope / length) : slopes;
 }
 
-/// Whether every point of the box sees every receiver within 60 degrees of the axis. The places from which one point is
+/// One map serves receivers up to 75 degrees off its axis. It wastes texels on the rim there, but less than the six or
+/// so maps of a cube for every sample would cost.
+constexpr double cosineOfHalfField = 0.259;
+
+/// Whether every point of the box sees every receiver within that angle of the axis. The places from which one point is
 /// seen within a cone are a cone themselves and convex: the box's corners tell for all of it.
 bool fitsOneFace(const glm::dvec3& axis, std::span<const glm::dvec3> bounds, const std::vector<Polygon>& receivers) {
     for (const Polygon& polygon : receivers) {
         for (const glm::dvec3& p : polygon) {
             for (const glm::dvec3& q : bounds) {
-                if (!(glm::dot(p - q, axis) > 0.5 * glm::length(p - q))) return false;
+                if (!(glm::dot(p - q, axis) > cosineOfHalfField * glm::length(p - q))) return false;
             }
         }
     }
