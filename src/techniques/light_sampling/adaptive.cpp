@@ -28,7 +28,7 @@ constexpr std::array<const char*, deepestLevel> failingCounts = {
     "failing fragments of level 0", "failing fragments of level 1", "failing fragments of level 2",
     "failing fragments of level 3"};
 
-constexpr int cellsPerSide = 32;  // see lattice_weights.comp.glsl
+constexpr int cellsPerSide = 34;  // see lattice_weights.comp.glsl
 
 }  // namespace
 
@@ -79,7 +79,7 @@ void AdaptiveLightSampling::chooseSamples(const LightSurface& surface) {
         samples_.push_back(surface.sample(glm::dvec2(0.5)));
         return;
     }
-    for (const PatternPoint& point : makePattern(SamplePattern::corners, latticeSide, 0, false)) {
+    for (const PatternPoint& point : makePattern(SamplePattern::cells, latticeSide, 0, false)) {
         samples_.push_back(surface.sample(point.square));
     }
 }

@@ -8,17 +8,17 @@ layout(local_size_x = 64) in;
 
 layout(std430, binding = 0) readonly buffer SubdivisionBlock { Subdivision subdivision; };
 layout(std430, binding = 1) buffer Samples { LightSample samples[]; };
-// A textured light's radiance over 32 x 32 cells, in `weight.rgb`; cells are quarters of the finest quads.
+// A textured light's radiance over 34 x 34 cells, in `weight.rgb`: a quarter of what each vertex stands for at most.
 layout(std430, binding = 2) readonly buffer Cells { LightSample cells[]; };
 #include "src/techniques/light_sampling/subdivision.glsl"
 
 layout(location = 0) uniform bool usesPaperWeights;
 layout(location = 1) uniform bool isTextured;
 
-vec3 radianceOf(ivec2 low, int side) {
+vec3 radianceOf(ivec2 low, ivec2 high) {
     vec3 sum = vec3(0.0);
-    for (int y = low.y; y < low.y + side; ++y) {
-        for (int x = low.x; x < low.x + side; ++x) sum += cells[y * 32 + x].weight.rgb;
+    for (int y = low.y; y < high.y; ++y) {
+        for (int x = low.x; x < high.x; ++x) sum += cells[y * 34 + x].weight.rgb;
     }
     return sum;
 }
@@ -29,8 +29,9 @@ void main() {
     ivec2 place = ivec2(vertex % latticeSide, vertex / latticeSide);
 
     // The integral over a leaf is its area times the mean of its corners, as for a bilinear function: each corner
-    // stands for the quarter of the leaf next to it. A sample in the middle of a larger neighbour's edge counts in
-    // its own leaves alone.
+    // stands for the quarter of the leaf next to it, and on the lattice's rim for the margin beyond (vertices are the
+    // middles of 17 x 17 cells). Thus an even subdivision weighs all samples alike. A sample in the middle of a larger
+    // neighbour's edge counts in its own leaves alone.
     float area = 0.0;
     vec3 radiance = vec3(0.0);
     int deepest = 0;
@@ -43,8 +44,12 @@ void main() {
             if (any(lessThan(quad, ivec2(0))) || any(greaterThanEqual(quad, ivec2(1 << level)))) continue;
             if (!isLeaf(level, quad)) continue;
             deepest = level;
-            area += 0.25 / float(1 << (2 * level));
-            if (isTextured) radiance += radianceOf(2 * place - corner * side, side);
+            ivec2 low = 2 * place + 1 - corner * side;
+            ivec2 high = low + side;
+            low = mix(low, ivec2(0), equal(low, ivec2(1)));
+            high = mix(high, ivec2(34), equal(high, ivec2(33)));
+            area += float((high.x - low.x) * (high.y - low.y)) / (34.0 * 34.0);
+            if (isTextured) radiance += radianceOf(low, high);
         }
     }
     // Equation 3, its depth being that of the finest quad at the sample: so the weights of an even subdivision add up

@@ -39,7 +39,7 @@ class SubdivisionPasses {
     void examine(int level, const SubdivisionOptions& options);
     void decide(const SampleMaps& maps, int level, const SubdivisionOptions& options);
 
-    /// Writes the samples' weights. `cellShares`: the radiance over 32 x 32 cells of a textured light, or null.
+    /// Writes the samples' weights. `cellShares`: the radiance over 34 x 34 cells of a textured light, or null.
     void weigh(const SampleMaps& maps, bool usesPaperWeights, const gl::Buffer* cellShares);
 
     void bindBits(GLuint unit) const { bits_.bind(unit); }

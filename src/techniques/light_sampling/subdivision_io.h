@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quadtree over the light, shared between C++ and GLSL (std430). Its vertices lie on a lattice of 17 x 17 points of
-// the unit square: the corners of quads at level d are 16 >> d apart. Quads of levels 0 to 3 can be split; level l
+// The quadtree over the light, shared between C++ and GLSL (std430). Its vertices are the middles of 17 x 17 cells of
+// the unit square, so that a full subdivision is uniform sampling with 17 x 17 samples and no sample lies on the very
+// rim, which the horizon of a receiver touches first. The corners of quads at level d are 16 >> d apart. Quads of levels 0 to 3 can be split; level l
 // starts at (4^l - 1) / 3, rows of 2^l quads each.
 #ifndef PENUMBRA_SUBDIVISION_IO_H
 #define PENUMBRA_SUBDIVISION_IO_H
