@@ -12,8 +12,8 @@ namespace penumbra {
 namespace {
 
 constexpr std::array<const char*, deepestLevel + 1> mapPasses = {
-    "adaptive/maps of level 0", "adaptive/maps of level 1", "adaptive/maps of level 2", "adaptive/maps of level 3",
-    "adaptive/maps of level 4"};
+    "adaptive/maps of level 0", "adaptive/maps of level 1", "adaptive/maps of level 2",
+    "adaptive/maps of level 3", "adaptive/maps of level 4"};
 constexpr std::array<const char*, deepestLevel> comparisonPasses = {
     "adaptive/comparison of level 0", "adaptive/comparison of level 1", "adaptive/comparison of level 2",
     "adaptive/comparison of level 3"};
@@ -21,9 +21,10 @@ constexpr std::array<const char*, deepestLevel> decisionPasses = {
     "adaptive/decision of level 0", "adaptive/decision of level 1", "adaptive/decision of level 2",
     "adaptive/decision of level 3"};
 constexpr std::array<const char*, deepestLevel + 1> sampleCounts = {
-    "samples of level 0", "samples of level 1", "samples of level 2", "samples of level 3", "samples of level 4"};
-constexpr std::array<const char*, deepestLevel> splitCounts = {"quads split at level 0", "quads split at level 1",
-                                                               "quads split at level 2", "quads split at level 3"};
+    "samples of level 0", "samples of level 1", "samples of level 2", "samples of level 3",
+    "samples of level 4"};
+constexpr std::array<const char*, deepestLevel> splitCounts = {
+    "quads split at level 0", "quads split at level 1", "quads split at level 2", "quads split at level 3"};
 constexpr std::array<const char*, deepestLevel> failingCounts = {
     "failing fragments of level 0", "failing fragments of level 1", "failing fragments of level 2",
     "failing fragments of level 3"};
@@ -52,18 +53,24 @@ void AdaptiveLightSampling::describe(ParameterVisitor& visitor) {
                     options_.maxSamples, {1, latticeVertices});
     visitor.integer({.name = "max_depth", .help = "the most times that the light is quartered"}, maxDepth_,
                     {0, deepestLevel});
-    visitor.integer({.name = "tolerated", .unit = "fragments", .help = "that may fail the test without a split"},
-                    options_.tolerated, {0, 1 << 24});
+    visitor.integer(
+        {.name = "min_depth", .help = "the least times that all of the light is quartered (the paper's: 0)"},
+        options_.minDepth, {0, deepestLevel});
+    visitor.integer(
+        {.name = "tolerated", .unit = "fragments", .help = "that may fail the test without a split"},
+        options_.tolerated, {0, 1 << 24});
     visitor.real({.name = "comparison_scale", .help = "side of the comparison target over that of the frame"},
                  comparisonScale_, {0.0625f, 1});
     visitor.real({.name = "max_error",
                   .help = "split until no pixel's estimated error exceeds this; 0: the paper's test decides"},
                  options_.maxError, {0, 1});
-    visitor.choice({.name = "weights", .help = "of samples: the area each stands for, or the paper's equation 3"},
-                   weights_, weights);
-    visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"}, mapSize_px_,
-                    {16, 16384});
-    visitor.boolean({.name = "reuse", .help = "keep maps and subdivision while nothing has changed"}, reuses_);
+    visitor.choice(
+        {.name = "weights", .help = "of samples: the area each stands for, or the paper's equation 3"},
+        weights_, weights);
+    visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"},
+                    mapSize_px_, {16, 16384});
+    visitor.boolean({.name = "reuse", .help = "keep maps and subdivision while nothing has changed"},
+                    reuses_);
     evaluationOptions_.describe(visitor);
 }
 
@@ -137,14 +144,18 @@ void AdaptiveLightSampling::subdivide(const Frame& frame) {
         return std::max(1, int(std::lround(double(comparisonScale_) * size_px)));
     };
     subdivision_.prepare(scaled(frame.out.width_px()), scaled(frame.out.height_px()));
-    if (!wasStatic_) subdivision_.start(maps_, options_);
+    // The square's rim is the far side of a sphere, where its corners fall together: they have nothing to
+    // compare.
+    SubdivisionOptions options = options_;
+    if (frame.inputs.light.shape == LightShape::sphere) options.minDepth = std::max(2, options.minDepth);
+    if (!wasStatic_) subdivision_.start(maps_, options);
     for (int level = 0; level < maxDepth_; ++level) {
         // A static frame asks the maps again, in case the host's depth has changed, but changes nothing else.
         if (!wasStatic_ || usesBits()) compareLevel(frame, level);
         if (wasStatic_) continue;
         const auto pass = timers_.pass(decisionPasses[std::size_t(level)]);
-        subdivision_.examine(level, options_);
-        subdivision_.decide(maps_, level, options_);
+        subdivision_.examine(level, options);
+        subdivision_.decide(maps_, level, options);
     }
     if (!wasStatic_ && options_.maxError > 0 && maxDepth_ == deepestLevel) {
         subdivision_.examine(deepestLevel, options_);
@@ -172,7 +183,8 @@ void AdaptiveLightSampling::weigh(const Frame& frame) {
 }
 
 void AdaptiveLightSampling::evaluate(const Frame& frame) {
-    const int deepestSlots = std::min(SubdivisionPasses::mostSlots[std::size_t(maxDepth_)], options_.maxSamples);
+    const int deepestSlots =
+        std::min(SubdivisionPasses::mostSlots[std::size_t(maxDepth_)], options_.maxSamples);
     if (usesBits()) {
         subdivision_.bindBits(4);
         evaluateStage(frame, maxDepth_, deepestSlots, !wasStatic_);

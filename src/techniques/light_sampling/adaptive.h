@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adaptive light source sampling: M. Schwärzler, O. Mattausch, D. Scherzer, M. Wimmer, Fast Accurate Soft Shadows with
-// Adaptive Light Source Sampling (2012). Shadow maps from the light's corners are compared where the camera sees them;
-// where their hard shadows are too far apart, the quad between them is split, down to 17 x 17 samples.
+// Adaptive light source sampling: M. Schwärzler, O. Mattausch, D. Scherzer, M. Wimmer, Fast Accurate Soft
+// Shadows with Adaptive Light Source Sampling (2012). Shadow maps from the light's corners are compared where
+// the camera sees them; where their hard shadows are too far apart, the quad between them is split, down to
+// 17 x 17 samples.
 #pragma once
 
 #include <vector>

@@ -15,6 +15,7 @@ layout(std430, binding = 2) buffer Slots { int sampleOfSlot[]; };
 layout(location = 0) uniform int level;
 layout(location = 1) uniform int maxSamples;
 layout(location = 2) uniform uint tolerated;  // failing fragments
+layout(location = 3) uniform int minDepth;    // every quad above it is split
 
 shared uint wish[64];
 shared int ranked[64];
@@ -51,7 +52,8 @@ void main() {
     bool isQuad = index < side * side;
     ivec2 quad = ivec2(index % side, index / side);
     uint count = isQuad ? subdivision.failing[quadIndex(level, quad)] : 0u;
-    wish[index] = isQuad && quadExists(level, quad) && count > tolerated ? count : 0u;
+    bool wants = count > tolerated || level < minDepth;
+    wish[index] = isQuad && quadExists(level, quad) && wants ? count + 1u : 0u;
     ranked[index] = -1;
     for (int i = index; i < latticeVertices; i += 64) slotOfVertex[i] = subdivision.slotOfVertex[i];
     barrier();

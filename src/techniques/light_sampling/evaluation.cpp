@@ -9,15 +9,19 @@ namespace penumbra {
 void EvaluationOptions::describe(ParameterVisitor& visitor) {
     static constexpr std::array<std::string_view, 2> paths = {"array", "accumulation"};
     static constexpr std::array<std::string_view, 2> weightings = {"area", "irradiance"};
-    visitor.choice({.name = "evaluation", .help = "all maps of a batch in one pass, or an accumulation pass a map"},
-                   path, paths);
-    visitor.integer({.name = "filter", .unit = "texels", .help = "side of the kernel that smooths each map; 1: none"},
-                    filter, {1, 3});
-    visitor.choice({.name = "weight", .help = "what a part of the light counts by: its area, or its irradiance"},
-                   weighting, weightings);
+    visitor.choice(
+        {.name = "evaluation", .help = "all maps of a batch in one pass, or an accumulation pass a map"},
+        path, paths);
+    visitor.integer(
+        {.name = "filter", .unit = "texels", .help = "side of the kernel that smooths each map; 1: none"},
+        filter, {1, 3});
+    visitor.choice(
+        {.name = "weight", .help = "what a part of the light counts by: its area, or its irradiance"},
+        weighting, weightings);
 }
 
-SampleLookup::SampleLookup(Device& device, std::string file) : device_(device.internals()), file_(std::move(file)) {}
+SampleLookup::SampleLookup(Device& device, std::string file)
+    : device_(device.internals()), file_(std::move(file)) {}
 
 void SampleLookup::use(const AreaLight& light, const SampleCameras& cameras, const EvaluationOptions& options,
                        std::vector<std::string> defines) {
@@ -41,12 +45,14 @@ void SampleLookup::use(const AreaLight& light, const SampleCameras& cameras, con
 SampleEvaluation::SampleEvaluation(Device& device)
     : lookup_(device, "src/techniques/light_sampling/evaluate.comp.glsl") {}
 
-void SampleEvaluation::add(const ShadowInputs& inputs, const SampleCameras& cameras, const EvaluationOptions& options,
-                           const SampleMaps& maps, const Batch& batch, VisibilityBuffer& out) {
+void SampleEvaluation::add(const ShadowInputs& inputs, const SampleCameras& cameras,
+                           const EvaluationOptions& options, const SampleMaps& maps, const Batch& batch,
+                           VisibilityBuffer& out) {
     const bool byPass = options.path == EvaluationOptions::accumulation && batch.mostSlots > 1;
     if (byPass || !batch.starts || !batch.ends) {
         const GLenum format = out.colored() ? GL_RGBA32F : GL_R32F;
-        if (seen_.width_px() != out.width_px() || seen_.height_px() != out.height_px() || seen_.format() != format) {
+        if (seen_.width_px() != out.width_px() || seen_.height_px() != out.height_px() ||
+            seen_.format() != format) {
             const gl::TextureSpec spec{.width_px = out.width_px(),
                                        .height_px = out.height_px(),
                                        .format = format,
@@ -79,7 +85,8 @@ RadianceWeights::RadianceWeights(Device& device)
     : program_(device.internals().shaders, {"src/techniques/light_sampling/weigh.comp.glsl"}),
       cells_("light sampling cells") {}
 
-void RadianceWeights::weigh(GLuint radianceTexture, std::span<const glm::vec4> cells, const gl::Buffer& samples) {
+void RadianceWeights::weigh(GLuint radianceTexture, std::span<const glm::vec4> cells,
+                            const gl::Buffer& samples) {
     cells_.write(cells);
     program_.use();
     glBindTextureUnit(0, radianceTexture);

@@ -15,14 +15,15 @@ namespace penumbra {
 /// What the parameters say about it.
 struct EvaluationOptions {
     enum Path { array, accumulation };
-    int path = array;    ///< all maps of a batch in one pass, or a pass a map
-    int filter = 1;      ///< a side of the kernel in texels, 1 to 3
-    int weighting = 0;   ///< 0: by area, 1: by irradiance
+    int path = array;   ///< all maps of a batch in one pass, or a pass a map
+    int filter = 1;     ///< a side of the kernel in texels, 1 to 3
+    int weighting = 0;  ///< 0: by area, 1: by irradiance
 
     void describe(ParameterVisitor& visitor);
 };
 
-/// The programs that look receivers up in maps, in the variants that lights need, and what all of them are told.
+/// The programs that look receivers up in maps, in the variants that lights need, and what all of them are
+/// told.
 class SampleLookup {
   public:
     SampleLookup(Device& device, std::string file);
@@ -45,9 +46,9 @@ class SampleEvaluation {
     struct Batch {
         int stage = stageOfAll;
         int batch = 0;
-        int mostSlots = 1;           ///< it can hold
+        int mostSlots = 1;                ///< it can hold
         bool starts = true, ends = true;  ///< the sum
-        bool usesBits = false;       ///< the slots before the stage come from shadow bits at texture unit 4
+        bool usesBits = false;  ///< the slots before the stage come from shadow bits at texture unit 4
     };
 
     /// Adds a batch to the sums. Expects the view to be bound.
@@ -64,8 +65,8 @@ class RadianceWeights {
   public:
     explicit RadianceWeights(Device& device);
 
-    /// Sets each sample's colour weight to the radiance over its cell of the unit square (xy: min, zw: max) times its
-    /// weight by area.
+    /// Sets each sample's colour weight to the radiance over its cell of the unit square (xy: min, zw: max)
+    /// times its weight by area.
     void weigh(GLuint radianceTexture, std::span<const glm::vec4> cells, const gl::Buffer& samples);
 
   private:

@@ -6,8 +6,8 @@
 namespace penumbra {
 namespace {
 
-/// A mesh may be replaced by another at the same address, with buffers of the same names: some of its positions and
-/// indices tell them apart.
+/// A mesh may be replaced by another at the same address, with buffers of the same names: some of its
+/// positions and indices tell them apart.
 constexpr std::size_t probes = 64;
 
 template <typename T>
@@ -30,7 +30,8 @@ bool appendInputs(std::vector<std::byte>& key, const ShadowInputs& inputs) {
     const AreaLight& light = inputs.light;
     appendBytes(key, light.shape);
     appendBytes(key, light.worldFromLight);
-    for (const float size : {light.width_m, light.height_m, light.radius_m, light.angle_rad}) appendBytes(key, size);
+    for (const float size : {light.width_m, light.height_m, light.radius_m, light.angle_rad})
+        appendBytes(key, size);
     appendBytes(key, light.twoSided);
     appendBytes(key, light.radianceTexture);
     bool isKnown = true;

@@ -15,8 +15,8 @@ void appendBytes(std::vector<std::byte>& key, const T& value) {
     key.insert(key.end(), bytes.begin(), bytes.end());
 }
 
-/// Appends everything that depth maps and receivers follow from, so that equal keys mean equal maps. False where they
-/// may change unseen: a mask's texture has no revision.
+/// Appends everything that depth maps and receivers follow from, so that equal keys mean equal maps. False
+/// where they may change unseen: a mask's texture has no revision.
 bool appendInputs(std::vector<std::byte>& key, const ShadowInputs& inputs);
 
 }  // namespace penumbra

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of a light: the unit square laid over it so that equal areas of the square are equal shares of the light.
+// Points of a light: the unit square laid over it so that equal areas of the square are equal shares of the
+// light.
 #pragma once
 
 #include <glm/glm.hpp>

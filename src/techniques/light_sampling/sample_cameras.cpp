@@ -28,13 +28,14 @@ glm::dvec2 slopesOf(const glm::dvec3& towardsLightFace) {
     return length > steepestSlope ? slopes * (steepestSlope / length) : slopes;
 }
 
-/// One map serves receivers up to 75 degrees off its axis. It wastes texels on the rim there, but less than the six or
-/// so maps of a cube for every sample would cost.
+/// One map serves receivers up to 75 degrees off its axis. It wastes texels on the rim there, but less than
+/// the six or so maps of a cube for every sample would cost.
 constexpr double cosineOfHalfField = 0.259;
 
-/// Whether every point of the box sees every receiver within that angle of the axis. The places from which one point is
-/// seen within a cone are a cone themselves and convex: the box's corners tell for all of it.
-bool fitsOneFace(const glm::dvec3& axis, std::span<const glm::dvec3> bounds, const std::vector<Polygon>& receivers) {
+/// Whether every point of the box sees every receiver within that angle of the axis. The places from which
+/// one point is seen within a cone are a cone themselves and convex: the box's corners tell for all of it.
+bool fitsOneFace(const glm::dvec3& axis, std::span<const glm::dvec3> bounds,
+                 const std::vector<Polygon>& receivers) {
     for (const Polygon& polygon : receivers) {
         for (const glm::dvec3& p : polygon) {
             for (const glm::dvec3& q : bounds) {
@@ -45,10 +46,12 @@ bool fitsOneFace(const glm::dvec3& axis, std::span<const glm::dvec3> bounds, con
     return true;
 }
 
-/// Whether no receiver can lie in the pyramid that a cube's face sees, wherever in the box the cube's middle is.
+/// Whether no receiver can lie in the pyramid that a cube's face sees, wherever in the box the cube's middle
+/// is.
 bool isEmptyFace(const glm::dmat3& faceFromLight, std::span<const glm::dvec3> bounds,
                  const std::vector<Polygon>& receivers) {
-    const glm::dvec3 x = glm::row(faceFromLight, 0), y = glm::row(faceFromLight, 1), z = glm::row(faceFromLight, 2);
+    const glm::dvec3 x = glm::row(faceFromLight, 0), y = glm::row(faceFromLight, 1),
+                     z = glm::row(faceFromLight, 2);
     const std::array<glm::dvec3, 4> planes = {z - x, z + x, z - y, z + y};
     return std::ranges::all_of(receivers, [&](const Polygon& polygon) {
         return std::ranges::any_of(planes, [&](const glm::dvec3& plane) {
@@ -61,8 +64,8 @@ bool isEmptyFace(const glm::dmat3& faceFromLight, std::span<const glm::dvec3> bo
 
 }  // namespace
 
-void SampleCameras::fit(const AreaLight& light, const LightSurface& surface, std::span<const LightSample> samples,
-                        const LightSpaceScene& scene, int mapSize_px) {
+void SampleCameras::fit(const AreaLight& light, const LightSurface& surface,
+                        std::span<const LightSample> samples, const LightSpaceScene& scene, int mapSize_px) {
     const std::vector<Polygon>& polygons = scene.receivers.polygons;
     faces = 0;
     isCube = false;
@@ -99,7 +102,8 @@ void SampleCameras::fit(const AreaLight& light, const LightSurface& surface, std
         near_m -= slack;
         far_m += slack;
     } else {
-        // A float depth that tends to zero is as precise far away as it is near: the near plane may touch the light.
+        // A float depth that tends to zero is as precise far away as it is near: the near plane may touch the
+        // light.
         near_m = 1e-9 * farthest;
         far_m = 0;
         const glm::dvec3 axis = coneAxis(directions);
@@ -108,8 +112,9 @@ void SampleCameras::fit(const AreaLight& light, const LightSurface& surface, std
             faceFromLight[0] = lookAlong(axis);
         } else {
             isCube = true;
-            for (const glm::dvec3& faceAxis : {glm::dvec3(0, 0, -1), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0),
-                                               glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0)}) {
+            for (const glm::dvec3& faceAxis :
+                 {glm::dvec3(0, 0, -1), glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0),
+                  glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0)}) {
                 const glm::dmat3 face = lookAlong(faceAxis);
                 if (!isEmptyFace(face, bounds, polygons)) faceFromLight[std::size_t(faces++)] = face;
             }
@@ -147,13 +152,14 @@ void SampleCameras::fitWindows(std::span<const LightSample> samples, int mapSize
         const glm::dvec2 slopes = slopesOf(place);
         glm::dvec2 low(infinity), high(-infinity);
         for (const glm::dvec3& p : receivers_) {
-            const glm::dvec2 at = orthographic ? glm::dvec2(p) - slopes * p.z
-                                               : glm::dvec2(p - place) / (p.z - place.z);
+            const glm::dvec2 at =
+                orthographic ? glm::dvec2(p) - slopes * p.z : glm::dvec2(p - place) / (p.z - place.z);
             low = glm::min(low, at);
             high = glm::max(high, at);
         }
         const glm::dvec2 extent = high - low;
-        const double smallest = 1e-6 * (orthographic ? far_m - near_m : 1) + 1e-6 * std::max(extent.x, extent.y);
+        const double smallest =
+            1e-6 * (orthographic ? far_m - near_m : 1) + 1e-6 * std::max(extent.x, extent.y);
         const glm::dvec2 border = glm::max(extent, smallest) * (2.0 / std::max(1, mapSize_px - 4));
         glm::dmat4 camera(faceFromLight[0]);
         if (orthographic) {

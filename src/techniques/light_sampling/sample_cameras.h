@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cameras of all samples of a light. They share their axes, so that a receiver is turned into face space once for
-// all of them; only the origin (perspective) or the slant (orthographic) and the window differ.
+// The cameras of all samples of a light. They share their axes, so that a receiver is turned into face space
+// once for all of them; only the origin (perspective) or the slant (orthographic) and the window differ.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct SampleCameras {
     bool isCube = false;
     bool orthographic = false;
     std::array<glm::dmat3, 6> faceFromLight;
-    double near_m = 0, far_m = 0;  ///< as LightCamera has them, for all samples
+    double near_m = 0, far_m = 0;       ///< as LightCamera has them, for all samples
     std::vector<SampleCamera> cameras;  ///< `faces` a sample
 
     /// Fits them to everything that receives. Keeps its memory.
@@ -26,8 +26,8 @@ struct SampleCameras {
 
   private:
     void fitWindows(std::span<const LightSample> samples, int mapSize_px);
-    void add(const glm::dmat4& faceFromLight, const glm::dvec3& origin, glm::dvec2 windowMin, glm::dvec2 windowMax,
-             int mapSize_px);
+    void add(const glm::dmat4& faceFromLight, const glm::dvec3& origin, glm::dvec2 windowMin,
+             glm::dvec2 windowMax, int mapSize_px);
 
     std::vector<glm::dvec3> receivers_;  // face space of face 0
 };

@@ -108,7 +108,8 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
     grow(layerCameras_, layers * sizeof(LightCameraConstants), "light sampling layer cameras");
     grow(layerTaps_, layers * sizeof(LayerTap), "light sampling layer taps");
     grow(layerLists_, casterLayers * sizeof(int), "light sampling layer lists");
-    grow(commands_, (device_.layerFromVertexShader ? casters.size() + 1 : casterLayers + layers) * sizeof(DrawCommand),
+    grow(commands_,
+         (device_.layerFromVertexShader ? casters.size() + 1 : casterLayers + layers) * sizeof(DrawCommand),
          "light sampling draws");
 }
 
@@ -144,7 +145,8 @@ void SampleMaps::draw(int stage, int batch) {
         GLuint binding = 0;
         for (const gl::Buffer* buffer : buffers) bindStorage(binding++, *buffer);
     };
-    bindInOrder({&plan_, &slots_, &cameras_, &layerTaps_, &layerCameras_, &cullBoxes_, &layerLists_, &commands_});
+    bindInOrder(
+        {&plan_, &slots_, &cameras_, &layerTaps_, &layerCameras_, &cullBoxes_, &layerLists_, &commands_});
     glDispatchCompute(GLuint(casters_.size()) + 1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 
@@ -152,10 +154,12 @@ void SampleMaps::draw(int stage, int batch) {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
     // In one go where the vertex shader chooses the layer, else layer by layer.
     const std::size_t rounds = device_.layerFromVertexShader ? 1 : layers;
-    gl::RasterState state{.width_px = mapSize_px_, .height_px = mapSize_px_, .depthWrite = true, .colorWrite = false};
+    gl::RasterState state{
+        .width_px = mapSize_px_, .height_px = mapSize_px_, .depthWrite = true, .colorWrite = false};
     for (std::size_t round = 0; round < rounds; ++round) {
         if (rounds > 1) framebuffer_.attachDepthLayer(maps_, int(round));
-        // Only the layers of this batch are cleared, by a triangle: which they are, the device may alone know.
+        // Only the layers of this batch are cleared, by a triangle: which they are, the device may alone
+        // know.
         state.depthTest = GL_ALWAYS;
         gl::beginPass(framebuffer_.name(), state);
         glBindVertexArray(noVertices_.name());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth maps of many samples: which ones, the device may decide. A stage of the plan is drawn in batches that fit the
-// memory; in each, one indirect draw a caster reaches all maps of the batch that see it.
+// Depth maps of many samples: which ones, the device may decide. A stage of the plan is drawn in batches that
+// fit the memory; in each, one indirect draw a caster reaches all maps of the batch that see it.
 #pragma once
 
 #include <functional>
@@ -24,11 +24,12 @@ class SampleMaps {
 
     static constexpr double memory_bytes = 320.0 * 1024 * 1024;
 
-    /// Takes this frame's samples, their cameras and the casters. `expectedSamples` maps are made room for at once if
-    /// the memory allows, else room for as many as it does. Throws Error::Kind::badArgument for maps that are larger
-    /// than the device allows.
-    void prepare(std::span<const Caster> casters, const LightSpaceScene& scene, std::span<const LightSample> samples,
-                 const SampleCameras& cameras, int mapSize_px, int expectedSamples);
+    /// Takes this frame's samples, their cameras and the casters. `expectedSamples` maps are made room for at
+    /// once if the memory allows, else room for as many as it does. Throws Error::Kind::badArgument for maps
+    /// that are larger than the device allows.
+    void prepare(std::span<const Caster> casters, const LightSpaceScene& scene,
+                 std::span<const LightSample> samples, const SampleCameras& cameras, int mapSize_px,
+                 int expectedSamples);
 
     /// The plan: stages and the sample in each slot, from the CPU.
     void writePlan(const SamplingPlan& plan, std::span<const int> sampleOfSlot);
@@ -42,7 +43,8 @@ class SampleMaps {
     /// Draws the maps of batch `batch` of a stage.
     void draw(int stage, int batch);
 
-    /// Binds the maps to texture unit 3 and to storage blocks 0 to 3: plan, slots, samples, taps. For sample_test.glsl.
+    /// Binds the maps to texture unit 3 and to storage blocks 0 to 3: plan, slots, samples, taps. For
+    /// sample_test.glsl.
     void bind() const;
     /// Sets its uniforms 0 to 3 of the program in use.
     void setBatch(int stage, int batch) const;
@@ -61,7 +63,7 @@ class SampleMaps {
     gl::VertexArrayHandle vertices_, noVertices_;
     gl::Texture maps_;
     gl::Framebuffer framebuffer_;
-    gl::Buffer plan_, slots_, samples_, cameras_;  // as the CPU or the device chose them
+    gl::Buffer plan_, slots_, samples_, cameras_;                  // as the CPU or the device chose them
     gl::Buffer layerCameras_, layerTaps_, layerLists_, commands_;  // of the batch, by layer
     gl::Buffer cullBoxes_, casterConstants_;
     std::vector<CullBox> boxes_;

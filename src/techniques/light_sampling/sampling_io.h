@@ -15,14 +15,16 @@ using glm::vec4;
 
 // A point of the light.
 struct LightSample {
-    vec4 place;   // xyz: position in light space, or the unit direction towards a distant light; w: 1 / density
+    vec4
+        place;  // xyz: position in light space, or the unit direction towards a distant light; w: 1 / density
     vec4 normal;  // sphere: outward
     vec4 weight;  // rgb: share of the light's emission; a: share of its area
 };
 
 // A layer's map, as a receiver is looked up in it. All samples share the axes of their maps.
 struct LayerTap {
-    vec4 origin;  // perspective: xyz: the sample in face space; orthographic: xy: the light's slopes; w: texel size
+    vec4 origin;  // perspective: xyz: the sample in face space; orthographic: xy: the light's slopes; w:
+                  // texel size
     vec4 window;  // xy: min; zw: 1 / (max - min); tangents, or metres
 };
 
@@ -46,8 +48,8 @@ struct DrawCommand {
     int baseInstance;
 };
 
-// Slots hold the samples in use, in the order in which they were chosen; a stage is a run of slots whose maps are
-// drawn together: a level of the subdivision, or everything.
+// Slots hold the samples in use, in the order in which they were chosen; a stage is a run of slots whose maps
+// are drawn together: a level of the subdivision, or everything.
 const int maxStages = 8;
 const int stageOfAll = 7;  // of all slots
 

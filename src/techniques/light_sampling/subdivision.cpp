@@ -10,7 +10,9 @@ void bindStorage(GLuint binding, const gl::Buffer& buffer) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
 }
 
-std::vector<std::string> file(const char* name) { return {std::string("src/techniques/light_sampling/") + name}; }
+std::vector<std::string> file(const char* name) {
+    return {std::string("src/techniques/light_sampling/") + name};
+}
 
 void resize(gl::Texture& texture, int width_px, int height_px, GLenum format, std::string_view label) {
     if (texture.width_px() == width_px && texture.height_px() == height_px && texture.name() != 0) return;
@@ -40,7 +42,9 @@ void SubdivisionPasses::prepare(int width_px, int height_px) {
     resize(bits_, width_px, height_px, GL_RGBA32UI, "shadow values of light samples");
 }
 
-void SubdivisionPasses::start(const SampleMaps& maps, const SubdivisionOptions& options) { decide(maps, -1, options); }
+void SubdivisionPasses::start(const SampleMaps& maps, const SubdivisionOptions& options) {
+    decide(maps, -1, options);
+}
 
 void SubdivisionPasses::decide(const SampleMaps& maps, int level, const SubdivisionOptions& options) {
     decide_.use();
@@ -50,12 +54,13 @@ void SubdivisionPasses::decide(const SampleMaps& maps, int level, const Subdivis
     glUniform1i(0, level);
     glUniform1i(1, options.maxSamples);
     glUniform1ui(2, GLuint(options.tolerated));
+    glUniform1i(3, options.minDepth);
     glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void SubdivisionPasses::compare(const ShadowInputs& inputs, const SampleCameras& cameras, const SampleMaps& maps,
-                                int stage, int batch, bool starts) {
+void SubdivisionPasses::compare(const ShadowInputs& inputs, const SampleCameras& cameras,
+                                const SampleMaps& maps, int stage, int batch, bool starts) {
     compare_.use(inputs.light, cameras, {});
     maps.bind();
     maps.setBatch(stage, batch);

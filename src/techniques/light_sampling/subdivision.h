@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quadtree over the light and the passes that grow it, level by level, on the device (section 3.3 of the paper).
+// The quadtree over the light and the passes that grow it, level by level, on the device (section 3.3 of the
+// paper).
 #pragma once
 
 #include <array>
@@ -14,7 +15,8 @@ namespace penumbra {
 /// When to split.
 struct SubdivisionOptions {
     int maxSamples = latticeVertices;
-    int tolerated = 0;  ///< failing fragments that do not yet split a quad
+    int minDepth = 1;    ///< every quad above it is split
+    int tolerated = 0;   ///< failing fragments that do not yet split a quad
     float maxError = 0;  ///< 0: the paper's test; else split until the error's estimate is below
 };
 
@@ -35,11 +37,13 @@ class SubdivisionPasses {
     void compare(const ShadowInputs& inputs, const SampleCameras& cameras, const SampleMaps& maps, int stage,
                  int batch, bool starts);
 
-    /// Tests the quads of a level, and splits those that fail it: the plan's stage `level` + 1 are the new samples.
+    /// Tests the quads of a level, and splits those that fail it: the plan's stage `level` + 1 are the new
+    /// samples.
     void examine(int level, const SubdivisionOptions& options);
     void decide(const SampleMaps& maps, int level, const SubdivisionOptions& options);
 
-    /// Writes the samples' weights. `cellShares`: the radiance over 34 x 34 cells of a textured light, or null.
+    /// Writes the samples' weights. `cellShares`: the radiance over 34 x 34 cells of a textured light, or
+    /// null.
     void weigh(const SampleMaps& maps, bool usesPaperWeights, const gl::Buffer* cellShares);
 
     void bindBits(GLuint unit) const { bits_.bind(unit); }
@@ -52,8 +56,8 @@ class SubdivisionPasses {
     };
     std::optional<Snapshot> latest() const;
 
-    /// Draws the pictures to look at: colour-coded sums of the root's corners (Figure 6: red 1, green 2, blue 3),
-    /// fragments that fail at any level, and the quads on the light.
+    /// Draws the pictures to look at: colour-coded sums of the root's corners (Figure 6: red 1, green 2, blue
+    /// 3), fragments that fail at any level, and the quads on the light.
     void illustrate() const;
     const gl::Texture& sumsPicture() const { return sums_; }
     const gl::Texture& failingPicture() const { return failing_; }

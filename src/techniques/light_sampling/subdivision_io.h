@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quadtree over the light, shared between C++ and GLSL (std430). Its vertices are the middles of 17 x 17 cells of
-// the unit square, so that a full subdivision is uniform sampling with 17 x 17 samples and no sample lies on the very
-// rim, which the horizon of a receiver touches first. The corners of quads at level d are 16 >> d apart. Quads of levels 0 to 3 can be split; level l
-// starts at (4^l - 1) / 3, rows of 2^l quads each.
+// The quadtree over the light, shared between C++ and GLSL (std430). Its vertices are the middles of 17 x 17
+// cells of the unit square, so that a full subdivision is uniform sampling with 17 x 17 samples and no sample
+// lies on the very rim, which the horizon of a receiver touches first. The corners of quads at level d are 16
+// >> d apart. Quads of levels 0 to 3 can be split; level l starts at (4^l - 1) / 3, rows of 2^l quads each.
 #ifndef PENUMBRA_SUBDIVISION_IO_H
 #define PENUMBRA_SUBDIVISION_IO_H
 
@@ -22,8 +22,8 @@ struct Subdivision {
     uint failing[splittableQuads];      // fragments that want the quad split
     uint split[splittableQuads];        // 1 where it was
     uint reachedMaximum;                // 1 where a quad was left whole for want of maps
-    uint errorEstimate;                 // bits of the largest estimate of a pixel's error (see examine.comp.glsl)
-    uint errorBound;                    // bits of the largest bound
+    uint errorEstimate;  // bits of the largest estimate of a pixel's error (see examine.comp.glsl)
+    uint errorBound;     // bits of the largest bound
 };
 
 #ifdef __cplusplus

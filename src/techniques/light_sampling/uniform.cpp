@@ -5,19 +5,22 @@
 
 namespace penumbra {
 
-UniformLightSampling::UniformLightSampling(Device& device) : maps_(device), evaluation_(device), radiance_(device) {}
+UniformLightSampling::UniformLightSampling(Device& device)
+    : maps_(device), evaluation_(device), radiance_(device) {}
 
 void UniformLightSampling::describe(ParameterVisitor& visitor) {
     static constexpr std::array<std::string_view, 3> patterns = {"cells", "corners", "sequence"};
     static constexpr std::array<std::string_view, 2> weights = {"area", "equal"};
     visitor.integer({.name = "samples", .help = "n of n x n samples of the light"}, perSide_, {1, 64});
-    visitor.choice({.name = "pattern",
-                    .help = "middles of cells, the paper's lattice with the light's corners, or a shifted sequence"},
-                   pattern_, patterns);
-    visitor.choice({.name = "weights", .help = "of samples: the area each stands for, or all equal (equation 2)"},
-                   weights_, weights);
-    visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"}, mapSize_px_,
-                    {16, 16384});
+    visitor.choice(
+        {.name = "pattern",
+         .help = "middles of cells, the paper's lattice with the light's corners, or a shifted sequence"},
+        pattern_, patterns);
+    visitor.choice(
+        {.name = "weights", .help = "of samples: the area each stands for, or all equal (equation 2)"},
+        weights_, weights);
+    visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"},
+                    mapSize_px_, {16, 16384});
     visitor.integer({.name = "seed", .help = "shifts the sequence"}, seed_, {0, 1 << 20});
     evaluationOptions_.describe(visitor);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uniform light source sampling: a shadow map from each of n x n points of the light, and the mean of their hard
-// shadows. M. Schwärzler, O. Mattausch, D. Scherzer, M. Wimmer, Fast Accurate Soft Shadows with Adaptive Light Source
-// Sampling (2012), section 3.2 and equation 2; P. Heckbert and M. Herf 1997 before them.
+// Uniform light source sampling: a shadow map from each of n x n points of the light, and the mean of their
+// hard shadows. M. Schwärzler, O. Mattausch, D. Scherzer, M. Wimmer, Fast Accurate Soft Shadows with Adaptive
+// Light Source Sampling (2012), section 3.2 and equation 2; P. Heckbert and M. Herf 1997 before them.
 #pragma once
 
 #include "penumbra/technique.h"
