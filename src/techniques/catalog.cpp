@@ -5,6 +5,8 @@
 #include <string>
 
 #include "penumbra/technique.h"
+#include "src/techniques/light_sampling/adaptive.h"
+#include "src/techniques/light_sampling/uniform.h"
 #include "src/techniques/shadow_map/hard.h"
 #include "src/techniques/shadow_map/pcf.h"
 #include "src/techniques/shadow_map/pcss.h"
@@ -33,6 +35,10 @@ constexpr std::array entries = {
     Entry{{"smoothies", "geometry on silhouettes fades the edges of a shadow map (Chan and Durand 2003)",
            0.02f},
           make<Smoothies>},
+    Entry{{"uniform", "n x n shadow maps from all over the light (Schwaerzler et al. 2012)", 0.03f},
+          make<UniformLightSampling>},
+    Entry{{"adaptive", "as many shadow maps from all over the light as the view needs (Schwaerzler et al. 2012)", 0.03f},
+          make<AdaptiveLightSampling>},
 };
 
 constexpr auto infos = [] {

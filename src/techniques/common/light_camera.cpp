@@ -117,17 +117,6 @@ glm::dmat4 lookAlong(const glm::dvec3& axis, const glm::dvec3& upHint, const glm
     return faceFromLight;
 }
 
-/// The axis of the narrowest cone around unit vectors, nearly (Badoiu and Clarkson 2003: step towards the farthest).
-glm::dvec3 coneAxis(const std::vector<glm::dvec3>& directions) {
-    glm::dvec3 axis = directions.front();
-    for (int i = 1; i <= 64; ++i) {
-        const auto farthest = std::ranges::min(directions, {}, [&](const auto& d) { return glm::dot(d, axis); });
-        axis += (farthest - axis) / double(i + 1);
-        if (glm::length(axis) < 1e-6) return directions.front();
-    }
-    return glm::normalize(axis);
-}
-
 /// Grows the window around everything in `polygons` that the camera has in front of it, then by the border.
 /// Empty where nothing is.
 std::optional<LightCamera> fitWindow(LightCamera camera, const std::vector<Polygon>& polygons,
@@ -190,6 +179,17 @@ LightCamera distantCamera(const LightSpaceScene& scene, const LightCameraOptions
 }
 
 }  // namespace
+
+// M. Badoiu and K. Clarkson, Smaller core-sets for balls, 2003: step towards the farthest.
+glm::dvec3 coneAxis(const std::vector<glm::dvec3>& directions) {
+    glm::dvec3 axis = directions.front();
+    for (int i = 1; i <= 64; ++i) {
+        const auto farthest = std::ranges::min(directions, {}, [&](const auto& d) { return glm::dot(d, axis); });
+        axis += (farthest - axis) / double(i + 1);
+        if (glm::length(axis) < 1e-6) return directions.front();
+    }
+    return glm::normalize(axis);
+}
 
 LightSpaceScene makeLightSpaceScene(const ShadowInputs& inputs, const glm::dmat4& lightFromWorld) {
     LightSpaceScene scene;

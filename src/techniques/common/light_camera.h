@@ -32,6 +32,9 @@ struct LightSpaceScene {
 /// Computes the above. `lightFromWorld` as from view_constants.h.
 LightSpaceScene makeLightSpaceScene(const ShadowInputs& inputs, const glm::dmat4& lightFromWorld);
 
+/// The axis of the narrowest cone around unit vectors, nearly. There must be at least one.
+glm::dvec3 coneAxis(const std::vector<glm::dvec3>& directions);
+
 /// A camera in face space: x to the right, y up, z along the axis it looks. Perspective cameras have the light's point
 /// at the origin and a window in tangents (x/z, y/z); orthographic ones a window in metres.
 struct LightCamera {

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Adaptive light source sampling: M. Schwärzler, O. Mattausch, D. Scherzer, M. Wimmer, Fast Accurate Soft
+// Shadows with Adaptive Light Source Sampling (2012). Shadow maps from the light's corners are compared where
+// the camera sees them; where their hard shadows are too far apart, the quad between them is split, down to
+// 17 x 17 samples.
+#pragma once
+
+#include <vector>
+
+#include "penumbra/technique.h"
+#include "src/gl/pass_timers.h"
+#include "src/techniques/light_sampling/evaluation.h"
+#include "src/techniques/light_sampling/subdivision.h"
+
+namespace penumbra {
+
+class AdaptiveLightSampling final : public Technique {
+  public:
+    explicit AdaptiveLightSampling(Device& device);
+
+    void describe(ParameterVisitor& visitor) override;
+    void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
+    void inspect(InspectionVisitor& visitor) const override;
+    Statistics statistics() const override;
+
+  private:
+    /// What a frame is made from, for the passes.
+    struct Frame {
+        const ShadowInputs& inputs;
+        glm::dmat4 lightFromWorld;
+        VisibilityBuffer& out;
+    };
+
+    bool usesBits() const;
+    void chooseSamples(const LightSurface& surface);
+    void renderCenterAlone(const Frame& frame);
+    void subdivide(const Frame& frame);
+    void compareLevel(const Frame& frame, int level);
+    void weigh(const Frame& frame);
+    void evaluate(const Frame& frame);
+    void evaluateStage(const Frame& frame, int stage, int mostSlots, bool draws);
+
+    SubdivisionOptions options_;
+    int maxDepth_ = deepestLevel;
+    float comparisonScale_ = 1;
+    int weights_ = 0;
+    int mapSize_px_ = 512;
+    bool reuses_ = true;
+    EvaluationOptions evaluationOptions_;
+
+    std::vector<LightSample> samples_;
+    SampleCameras cameras_;
+    SampleMaps maps_;
+    SubdivisionPasses subdivision_;
+    SampleEvaluation evaluation_;
+    RadianceWeights radiance_;
+    gl::Buffer cellShares_;
+    std::vector<glm::vec4> cells_;
+    std::vector<std::byte> key_, lastKey_;
+    ViewBinding view_;
+    gl::PassTimers timers_;
+    bool isCenterAlone_ = false;
+    bool wasStatic_ = false;
+};
+
+}  // namespace penumbra

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Summing what receivers see of the samples whose maps are at hand (section 3.4.2 of the paper).
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/techniques/common/view_constants.h"
+#include "src/techniques/light_sampling/sample_maps.h"
+
+namespace penumbra {
+
+/// What the parameters say about it.
+struct EvaluationOptions {
+    enum Path { array, accumulation };
+    int path = array;   ///< all maps of a batch in one pass, or a pass a map
+    int filter = 1;     ///< a side of the kernel in texels, 1 to 3
+    int weighting = 0;  ///< 0: by area, 1: by irradiance
+
+    void describe(ParameterVisitor& visitor);
+};
+
+/// The programs that look receivers up in maps, in the variants that lights need, and what all of them are
+/// told.
+class SampleLookup {
+  public:
+    SampleLookup(Device& device, std::string file);
+
+    /// Makes the variant for this light current and sets uniforms 3 and 5 to 15 of sample_test.glsl.
+    void use(const AreaLight& light, const SampleCameras& cameras, const EvaluationOptions& options,
+             std::vector<std::string> defines = {});
+
+  private:
+    Device::Internals& device_;
+    std::string file_;
+    std::map<std::vector<std::string>, gl::Program> programs_;
+};
+
+class SampleEvaluation {
+  public:
+    explicit SampleEvaluation(Device& device);
+
+    /// A batch of a stage, as one of several that make the sum.
+    struct Batch {
+        int stage = stageOfAll;
+        int batch = 0;
+        int mostSlots = 1;                ///< it can hold
+        bool starts = true, ends = true;  ///< the sum
+        bool usesBits = false;  ///< the slots before the stage come from shadow bits at texture unit 4
+    };
+
+    /// Adds a batch to the sums. Expects the view to be bound.
+    void add(const ShadowInputs& inputs, const SampleCameras& cameras, const EvaluationOptions& options,
+             const SampleMaps& maps, const Batch& batch, VisibilityBuffer& out);
+
+  private:
+    SampleLookup lookup_;
+    gl::Texture seen_, whole_;
+};
+
+/// Shares of a textured light's radiance.
+class RadianceWeights {
+  public:
+    explicit RadianceWeights(Device& device);
+
+    /// Sets each sample's colour weight to the radiance over its cell of the unit square (xy: min, zw: max)
+    /// times its weight by area.
+    void weigh(GLuint radianceTexture, std::span<const glm::vec4> cells, const gl::Buffer& samples);
+
+  private:
+    gl::Program program_;
+    gl::StorageArray<glm::vec4> cells_;
+};
+
+/// A single map has the memory of many: a light without size gets one of four times the side, as `hard` has.
+int mapSizeFor(const LightSurface& surface, int mapSize_px);
+
+}  // namespace penumbra

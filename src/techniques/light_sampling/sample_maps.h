@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth maps of many samples: which ones, the device may decide. A stage of the plan is drawn in batches that
+// fit the memory; in each, one indirect draw a caster reaches all maps of the batch that see it.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "src/device_internals.h"
+#include "src/gl/buffer.h"
+#include "src/gl/framebuffer.h"
+#include "src/gl/program.h"
+#include "src/gl/texture.h"
+#include "src/gl/vertex_array.h"
+#include "src/techniques/common/depth_map_io.h"
+#include "src/techniques/light_sampling/sample_cameras.h"
+#include "src/techniques/light_sampling/sampling_io.h"
+
+namespace penumbra {
+
+class SampleMaps {
+  public:
+    explicit SampleMaps(Device& device);
+
+    static constexpr double memory_bytes = 320.0 * 1024 * 1024;
+
+    /// Takes this frame's samples, their cameras and the casters. `expectedSamples` maps are made room for at
+    /// once if the memory allows, else room for as many as it does. Throws Error::Kind::badArgument for maps
+    /// that are larger than the device allows.
+    void prepare(std::span<const Caster> casters, const LightSpaceScene& scene,
+                 std::span<const LightSample> samples, const SampleCameras& cameras, int mapSize_px,
+                 int expectedSamples);
+
+    /// The plan: stages and the sample in each slot, from the CPU.
+    void writePlan(const SamplingPlan& plan, std::span<const int> sampleOfSlot);
+
+    /// Whether all maps stay where they are, so that later stages do not overwrite earlier ones.
+    bool isResident() const { return resident_; }
+    /// Slots in a batch.
+    int capacity() const { return capacity_; }
+    int batches(int mostSlots) const { return (mostSlots + capacity_ - 1) / capacity_; }
+
+    /// Draws the maps of batch `batch` of a stage.
+    void draw(int stage, int batch);
+
+    /// Binds the maps to texture unit 3 and to storage blocks 0 to 3: plan, slots, samples, taps. For
+    /// sample_test.glsl.
+    void bind() const;
+    /// Sets its uniforms 0 to 3 of the program in use.
+    void setBatch(int stage, int batch) const;
+
+    const gl::Texture& texture() const { return maps_; }
+    const gl::Buffer& plan() const { return plan_; }
+    const gl::Buffer& slots() const { return slots_; }
+    const gl::Buffer& samples() const { return samples_; }
+
+  private:
+    void allocate(int mapSize_px, int layers);
+    void drawCaster(std::size_t caster, std::size_t command) const;
+
+    Device::Internals& device_;
+    gl::Program opaque_, masked_, gather_, clear_;
+    gl::VertexArrayHandle vertices_, noVertices_;
+    gl::Texture maps_;
+    gl::Framebuffer framebuffer_;
+    gl::Buffer plan_, slots_, samples_, cameras_;                  // as the CPU or the device chose them
+    gl::Buffer layerCameras_, layerTaps_, layerLists_, commands_;  // of the batch, by layer
+    gl::Buffer cullBoxes_, casterConstants_;
+    std::vector<CullBox> boxes_;
+    std::vector<CasterConstants> constants_;
+    std::span<const Caster> casters_;
+    int mapSize_px_ = 0;
+    int faces_ = 0;
+    int capacity_ = 1;
+    bool resident_ = false;
+};
+
+}  // namespace penumbra

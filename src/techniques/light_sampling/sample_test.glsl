@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a receiver sees samples of the light, and how much of the light each stands for.
+// Variants: DISTANT, SPHERE; CUBE, where receivers surround the light; FILTER 2 or 3, a side of the kernel in texels.
+#define PLAN_BLOCK 0
+#include "src/techniques/light_sampling/batch.glsl"
+
+layout(binding = 3) uniform sampler2DArray maps;
+layout(std430, binding = 1) readonly buffer Slots { int sampleOfSlot[]; };
+layout(std430, binding = 2) readonly buffer Samples { LightSample samples[]; };
+layout(std430, binding = 3) readonly buffer LayerTaps { LayerTap layerTaps[]; };
+
+layout(location = 5) uniform vec2 nearFar_m;
+layout(location = 6) uniform bool isOneSided;
+layout(location = 7) uniform bool isWeightedByIrradiance;
+layout(location = 8) uniform bool isTwoSided;
+layout(location = 10) uniform mat3 faceFromLight[6];  // locations 10 to 15
+
+// A receiver in the axes of the maps; in a cube's, in those of the light.
+struct Lookup {
+    vec3 pos;
+    vec3 normal;
+};
+
+Lookup makeLookup(Receiver receiver) {
+#ifdef CUBE
+    return Lookup(receiver.posLight, receiver.normalLight);
+#else
+    return Lookup(faceFromLight[0] * receiver.posLight, faceFromLight[0] * receiver.normalLight);
+#endif
+}
+
+// No sample counts: the surface is on the side to which the light does not emit.
+bool isBehindLight(Receiver receiver) { return isOneSided && receiver.posLight.z >= 0.0; }
+
+// What a sample counts for this receiver, per unit of its weight; 0 below the horizon. Rects and disks: 1, so that
+// weights are areas. Distant: 1, weights being solid angles. Sphere: the solid angle dA cos / d^2 of the piece of
+// surface that the sample stands for; from inside, its back counts. With irradiance, both cosines and 1 / d^2.
+float countOf(LightSample light, Receiver receiver) {
+#ifdef DISTANT
+    float cosine = dot(receiver.normalLight, light.place.xyz);
+    return cosine > 0.0 ? (isWeightedByIrradiance ? cosine : 1.0) : 0.0;
+#else
+    vec3 toSample = light.place.xyz - receiver.posLight;
+    float above = dot(receiver.normalLight, toSample);
+    if (!(above > 0.0)) return 0.0;
+    float distance2 = dot(toSample, toSample);
+#ifdef SPHERE
+    // Relative to the sphere as seen from its centre's distance; the floor leaves something to compare where none of a
+    // few samples faces the receiver.
+    float radius2 = dot(light.place.xyz, light.place.xyz);
+    float center2 = dot(receiver.posLight, receiver.posLight);
+    float cosine = -dot(light.normal.xyz, toSample) * inversesqrt(distance2);
+    if (center2 < radius2) cosine = abs(cosine);
+    float count = max(cosine, 0.0) * light.place.w * center2 / distance2 + 1e-4;
+    return isWeightedByIrradiance ? count * above * inversesqrt(distance2) : count;
+#else
+    if (!isWeightedByIrradiance) return 1.0;
+    return above * abs(receiver.posLight.z) / (distance2 * distance2);
+#endif
+#endif
+}
+
+// One texel's comparison, free of bias for planes (see shadow_map's comparison, which this follows): the receiver's
+// plane is intersected with the ray through the texel's centre. Multiplied by the stored depth so that nothing is
+// divided by the background's 0.
+float texelLit(int layer, LayerTap tap, vec3 pos, vec3 normal, float across, vec2 texel, float size_px) {
+    float stored = texelFetch(maps, ivec3(clamp(ivec2(texel), ivec2(0), ivec2(size_px) - 1), layer), 0).r;
+    vec2 place = (texel + 0.5) / (size_px * tap.window.zw) + tap.window.xy;
+#ifdef DISTANT
+    float texel_m = tap.origin.w;
+    float along = dot(normal.xy, tap.origin.xy) + normal.z;
+    float receiver_m = (across - dot(normal.xy, place)) / along;
+    if (along == 0.0) receiver_m = pos.z;
+#else
+    float texel_m = tap.origin.w * pos.z;
+    float along = dot(normal, vec3(place, 1.0));
+    float receiver_m = across * along > 0.0 ? across / along : pos.z + 64.0 * texel_m;
+#endif
+    receiver_m = clamp(receiver_m, pos.z - 64.0 * texel_m, pos.z + 64.0 * texel_m);
+    receiver_m -= texel_m + 4e-6 * length(pos);
+#ifdef DISTANT
+    return receiver_m <= nearFar_m.y - stored * (nearFar_m.y - nearFar_m.x) || stored == 0.0 ? 1.0 : 0.0;
+#else
+    return receiver_m * stored <= nearFar_m.x ? 1.0 : 0.0;
+#endif
+}
+
+// Share of the sample that the receiver sees: 0 or 1, and between them where maps are filtered.
+float sampleLit(int layer, Lookup lookup) {
+    vec3 pos = lookup.pos;
+    vec3 normal = lookup.normal;
+#ifdef CUBE
+    LayerTap tap;
+    vec3 posFace = vec3(0.0, 0.0, -1.0);
+    vec2 place = vec2(2.0);
+    int face = 0;
+    for (; face < faces; ++face) {
+        tap = layerTaps[layer + face];
+        posFace = faceFromLight[face] * pos - tap.origin.xyz;
+        place = posFace.xy / posFace.z;
+        if (posFace.z > 0.0 && all(lessThanEqual(abs(place), vec2(1.0)))) break;
+    }
+    if (face == faces) return 1.0;
+    layer += face;
+    pos = posFace;
+    normal = faceFromLight[face] * normal;
+    float across = dot(normal, pos);
+#elif defined(DISTANT)
+    LayerTap tap = layerTaps[layer];
+    vec2 place = pos.xy - tap.origin.xy * pos.z;
+    float across = dot(normal, pos);
+#else
+    LayerTap tap = layerTaps[layer];
+    pos -= tap.origin.xyz;
+    vec2 place = pos.xy / pos.z;
+    float across = dot(normal, pos);
+    if (!(pos.z > 0.0)) return 1.0;
+#endif
+    float size_px = float(textureSize(maps, 0).x);
+    vec2 at = (place - tap.window.xy) * tap.window.zw * size_px;
+    if (!(all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(size_px))))) return 1.0;
+#if FILTER == 3
+    // Quadratic B-spline over 3 x 3 texels.
+    vec2 middle = floor(at), f = at - middle - 0.5;
+    vec2 weights[3] = vec2[3](0.5 * (0.5 - f) * (0.5 - f), 0.75 - f * f, 0.5 * (0.5 + f) * (0.5 + f));
+    float lit = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 step = ivec2(i % 3, i / 3);
+        lit += weights[step.x].x * weights[step.y].y *
+               texelLit(layer, tap, pos, normal, across, middle + vec2(step - 1), size_px);
+    }
+    return lit;
+#elif FILTER == 2
+    // Bilinear over 2 x 2.
+    vec2 low = floor(at - 0.5), f = at - 0.5 - low;
+    float lit = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 step = ivec2(i & 1, i >> 1);
+        vec2 weight = mix(1.0 - f, f, vec2(step));
+        lit += weight.x * weight.y * texelLit(layer, tap, pos, normal, across, low + vec2(step), size_px);
+    }
+    return lit;
+#else
+    return texelLit(layer, tap, pos, normal, across, floor(at), size_px);
+#endif
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the light sampling techniques share between C++ and GLSL (std430).
+#ifndef PENUMBRA_SAMPLING_IO_H
+#define PENUMBRA_SAMPLING_IO_H
+
+#include "src/techniques/common/light_camera_io.h"
+
+#ifdef __cplusplus
+#include <glm/glm.hpp>
+namespace penumbra {
+using glm::ivec4;
+using glm::uvec4;
+using glm::vec4;
+#endif
+
+// A point of the light.
+struct LightSample {
+    vec4
+        place;  // xyz: position in light space, or the unit direction towards a distant light; w: 1 / density
+    vec4 normal;  // sphere: outward
+    vec4 weight;  // rgb: share of the light's emission; a: share of its area
+};
+
+// A layer's map, as a receiver is looked up in it. All samples share the axes of their maps.
+struct LayerTap {
+    vec4 origin;  // perspective: xyz: the sample in face space; orthographic: xy: the light's slopes; w:
+                  // texel size
+    vec4 window;  // xy: min; zw: 1 / (max - min); tangents, or metres
+};
+
+struct SampleCamera {
+    LightCameraConstants camera;
+    LayerTap tap;
+};
+
+// A caster for the device to cull.
+struct CullBox {
+    vec4 corners[8];  // light space; w: 1
+    uvec4 draw;       // x: number of indices, 0 where it casts nothing
+};
+
+// What glDrawElementsIndirect reads, and with its first four glDrawArraysIndirect.
+struct DrawCommand {
+    int count;
+    int instanceCount;
+    int firstIndex;
+    int baseVertex;
+    int baseInstance;
+};
+
+// Slots hold the samples in use, in the order in which they were chosen; a stage is a run of slots whose maps
+// are drawn together: a level of the subdivision, or everything.
+const int maxStages = 8;
+const int stageOfAll = 7;  // of all slots
+
+struct SamplingPlan {
+    ivec4 stages[maxStages];  // x: first slot; y: number of slots
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(LightSample) == 48 && sizeof(LayerTap) == 32 && sizeof(CullBox) == 144);
+static_assert(sizeof(DrawCommand) == 20 && sizeof(SamplingPlan) == 128 && sizeof(SampleCamera) == 192);
+}  // namespace penumbra
+#endif
+#endif

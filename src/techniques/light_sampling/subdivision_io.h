@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The quadtree over the light, shared between C++ and GLSL (std430). Its vertices are the middles of 17 x 17
+// cells of the unit square, so that a full subdivision is uniform sampling with 17 x 17 samples and no sample
+// lies on the very rim, which the horizon of a receiver touches first. The corners of quads at level d are 16
+// >> d apart. Quads of levels 0 to 3 can be split; level l starts at (4^l - 1) / 3, rows of 2^l quads each.
+#ifndef PENUMBRA_SUBDIVISION_IO_H
+#define PENUMBRA_SUBDIVISION_IO_H
+
+#ifdef __cplusplus
+#include <glm/glm.hpp>
+namespace penumbra {
+using glm::uint;
+#endif
+
+const int deepestLevel = 4;
+const int latticeSide = 17;
+const int latticeVertices = 289;
+const int splittableQuads = 85;
+
+struct Subdivision {
+    int slotOfVertex[latticeVertices];  // -1: no sample there
+    uint failing[splittableQuads];      // fragments that want the quad split
+    uint split[splittableQuads];        // 1 where it was
+    uint reachedMaximum;                // 1 where a quad was left whole for want of maps
+    uint errorEstimate;  // bits of the largest estimate of a pixel's error (see examine.comp.glsl)
+    uint errorBound;     // bits of the largest bound
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(Subdivision) == 4 * (latticeVertices + 2 * splittableQuads + 3));
+}  // namespace penumbra
+#endif
+#endif

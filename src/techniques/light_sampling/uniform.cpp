@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/techniques/light_sampling/uniform.h"
+
+#include <numeric>
+
+namespace penumbra {
+
+UniformLightSampling::UniformLightSampling(Device& device)
+    : maps_(device), evaluation_(device), radiance_(device) {}
+
+void UniformLightSampling::describe(ParameterVisitor& visitor) {
+    static constexpr std::array<std::string_view, 3> patterns = {"cells", "corners", "sequence"};
+    static constexpr std::array<std::string_view, 2> weights = {"area", "equal"};
+    visitor.integer({.name = "samples", .help = "n of n x n samples of the light"}, perSide_, {1, 64});
+    visitor.choice(
+        {.name = "pattern",
+         .help = "middles of cells, the paper's lattice with the light's corners, or a shifted sequence"},
+        pattern_, patterns);
+    visitor.choice(
+        {.name = "weights", .help = "of samples: the area each stands for, or all equal (equation 2)"},
+        weights_, weights);
+    visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"},
+                    mapSize_px_, {16, 16384});
+    visitor.integer({.name = "seed", .help = "shifts the sequence"}, seed_, {0, 1 << 20});
+    evaluationOptions_.describe(visitor);
+}
+
+void UniformLightSampling::choose(const LightSurface& surface) {
+    samples_.clear();
+    cells_.clear();
+    const int perSide = surface.isPoint() ? 1 : perSide_;
+    for (const PatternPoint& point : makePattern(SamplePattern(pattern_), perSide, seed_, weights_ == 1)) {
+        LightSample& sample = samples_.emplace_back(surface.sample(point.square));
+        sample.weight = glm::vec4(float(point.weight));
+        cells_.emplace_back(glm::vec2(point.cellMin), glm::vec2(point.cellMax));
+    }
+    slots_.resize(samples_.size());
+    std::iota(slots_.begin(), slots_.end(), 0);
+}
+
+void UniformLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
+    checkInputs(inputs, out);
+    const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
+    const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
+    const LightSurface surface(inputs.light, scene);
+    choose(surface);
+    const int count = int(samples_.size());
+    const int mapSize_px = mapSizeFor(surface, mapSize_px_);
+    cameras_.fit(inputs.light, surface, samples_, scene, mapSize_px);
+    maps_.prepare(inputs.casters, scene, samples_, cameras_, mapSize_px, count);
+    SamplingPlan plan{};
+    plan.stages[stageOfAll] = {0, count, 0, 0};
+    maps_.writePlan(plan, slots_);
+    if (inputs.light.radianceTexture != 0) {
+        const auto pass = timers_.pass("uniform/weights");
+        radiance_.weigh(inputs.light.radianceTexture, cells_, maps_.samples());
+    }
+
+    batches_ = maps_.batches(count);
+    for (int batch = 0; batch < batches_; ++batch) {
+        {
+            const auto pass = timers_.pass("uniform/maps");
+            maps_.draw(stageOfAll, batch);
+        }
+        {
+            const auto pass = timers_.pass("uniform/evaluation");
+            view_.bind(inputs.view, lightFromWorldMatrix);
+            evaluation_.add(inputs, cameras_, evaluationOptions_, maps_,
+                            {.batch = batch,
+                             .mostSlots = std::min(maps_.capacity(), count),
+                             .starts = batch == 0,
+                             .ends = batch == batches_ - 1},
+                            out);
+        }
+    }
+}
+
+void UniformLightSampling::inspect(InspectionVisitor& visitor) const {
+    visitor.texture(
+        {.name = "depth maps", .texture = maps_.texture().name(), .layers = maps_.texture().layers()});
+}
+
+Statistics UniformLightSampling::statistics() const {
+    return {.counts = {{"maps", double(samples_.size()) * cameras_.faces},
+                       {"samples", double(samples_.size())},
+                       {"batches", double(batches_)}},
+            .passes = passTimes(timers_)};
+}
+
+}  // namespace penumbra
