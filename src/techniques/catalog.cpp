@@ -10,6 +10,8 @@
 #include "src/techniques/shadow_map/pcss.h"
 #include "src/techniques/shadow_width_map/shadow_width_map.h"
 #include "src/techniques/smoothies/smoothies.h"
+#include "src/techniques/soft_shadow_volumes/hard_volumes.h"
+#include "src/techniques/soft_shadow_volumes/soft_volumes.h"
 
 namespace penumbra {
 namespace {
@@ -33,6 +35,12 @@ constexpr std::array entries = {
     Entry{{"smoothies", "geometry on silhouettes fades the edges of a shadow map (Chan and Durand 2003)",
            0.02f},
           make<Smoothies>},
+    Entry{{"hard-volumes", "shadow volumes of the light's centre: edges as sharp as the picture (Crow 1977)",
+           0.30f},
+          make<HardVolumes>},
+    Entry{{"soft-volumes", "layers counted from the edges of penumbra wedges (after Assarsson et al. 2003)",
+           0.01f},
+          make<SoftVolumes>},
 };
 
 constexpr auto infos = [] {
