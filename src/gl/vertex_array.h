@@ -16,7 +16,7 @@ VertexArrayHandle makeFloatVertexArray(Counts... componentCounts) {
     GLuint name = 0;
     glCreateVertexArrays(1, &name);
     GLuint attribute = 0;
-    const auto add = [&](int components) {
+    [[maybe_unused]] const auto add = [&](int components) {
         glVertexArrayAttribFormat(name, attribute, components, GL_FLOAT, GL_FALSE, 0);
         glVertexArrayAttribBinding(name, attribute, attribute);
         ++attribute;

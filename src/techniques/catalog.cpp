@@ -12,6 +12,8 @@
 #include "src/techniques/shadow_map/pcss.h"
 #include "src/techniques/shadow_width_map/shadow_width_map.h"
 #include "src/techniques/smoothies/smoothies.h"
+#include "src/techniques/soft_shadow_volumes/hard_volumes.h"
+#include "src/techniques/soft_shadow_volumes/soft_volumes.h"
 
 namespace penumbra {
 namespace {
@@ -39,6 +41,12 @@ constexpr std::array entries = {
           make<UniformLightSampling>},
     Entry{{"adaptive", "as many shadow maps from all over the light as the view needs (Schwaerzler et al. 2012)", 0.03f},
           make<AdaptiveLightSampling>},
+    Entry{{"hard-volumes", "shadow volumes of the light's centre: edges as sharp as the picture (Crow 1977)",
+           0.30f},
+          make<HardVolumes>},
+    Entry{{"soft-volumes", "layers counted from the edges of penumbra wedges (after Assarsson et al. 2003)",
+           0.01f},
+          make<SoftVolumes>},
 };
 
 constexpr auto infos = [] {

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/techniques/soft_shadow_volumes/hard_volumes.h"
+
+#include <array>
+
+namespace penumbra {
+
+HardVolumes::HardVolumes(Device& device)
+    : counter_(device),
+      resolve_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/hard_volumes.comp.glsl"}),
+      constants_("hard-volumes/constants"),
+      alphaMaskWarning_(device) {}
+
+void HardVolumes::describe(ParameterVisitor& visitor) {
+    static constexpr std::array<std::string_view, 3> countings = {"auto", "z-pass", "z-fail"};
+    visitor.choice(
+        {.name = "counting",
+         .help = "which sides of shadow volumes are counted: auto takes z-pass, the cheaper one, unless the "
+                 "eye lies within rounding of a side"},
+        counting_, countings);
+}
+
+void HardVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
+    checkInputs(inputs, out);
+    alphaMaskWarning_.check(inputs.casters);
+    const VolumeFrame frame(inputs, 1);
+    constants_.write(frame.constants);
+    view_.bind(inputs.view, frame.lightFromWorld);
+    constants_.bindUniform(1);
+    {
+        const auto pass = timers_.pass("hard-volumes/count");
+        counter_.render(frame, Counting(counting_));
+    }
+    {
+        const auto pass = timers_.pass("hard-volumes/resolve");
+        resolve_.use();
+        counter_.bind(3, 2);
+        bindVisibility(out, 0);
+        gl::dispatchPixels(out.width_px(), out.height_px());
+        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    }
+}
+
+void HardVolumes::inspect(InspectionVisitor& visitor) const {
+    visitor.texture({.name = "counts", .texture = counter_.counts().name(), .white = 4});
+    visitor.texture({.name = "receiver depth", .texture = counter_.depth().name()});
+}
+
+Statistics HardVolumes::statistics() const {
+    return {.counts = {{"edges", double(counter_.silhouettes().edgeCount())}}, .passes = passTimes(timers_)};
+}
+
+}  // namespace penumbra

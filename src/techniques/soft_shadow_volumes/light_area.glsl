@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light as a receiver sees it. Thesis, section 4.2.7: the space in which the receiver is the origin and the light a
+// unit square (rect) or a unit disk in the plane z = 1. Blockers lie at 0 < z < 1; what lies at z < 0 is behind the
+// receiver. Requires view.glsl and volumes_io.h.
+
+const float lightTau = 6.28318530717958647692;
+
+struct LightFrame {
+    vec3 x, y, z;      // rows of unitFromLight, to be applied to a point minus the receiver
+    float handedness;  // 1 or -1: the sign of the determinant
+    vec3 horizon;      // the light's points (u, v) with dot(horizon, (u, v, 1)) > 0 are above the receiver's horizon
+    float rounding;    // of `horizon`: points no higher than this are on the horizon
+    float tangent;     // of the angle of a sphere's or distant light's radius; 0 for flat lights
+    bool isEndless;    // the light is infinitely far: nothing is behind it
+};
+
+// False where none of the light can be seen for want of a side, or the receiver lies in the light.
+bool makeLightFrame(Receiver receiver, out LightFrame frame) {
+    vec3 p = receiver.posLight;
+    vec3 u, v, center;
+    frame.tangent = 0.0;
+    frame.isEndless = false;
+    frame.handedness = 1.0;
+    if (volume.lightKind.x == shapeDistant) {
+        frame.tangent = volume.lightSize.z;
+        frame.isEndless = true;
+        u = vec3(frame.tangent, 0.0, 0.0);
+        v = vec3(0.0, frame.tangent, 0.0);
+        center = vec3(0.0, 0.0, 1.0);
+        frame.x = vec3(1.0 / frame.tangent, 0.0, 0.0);
+        frame.y = vec3(0.0, 1.0 / frame.tangent, 0.0);
+        frame.z = center;
+    } else if (volume.lightKind.x == shapeSphere) {
+        // The cone that touches the sphere cuts the plane through its centre in this radius.
+        float distance2 = dot(p, p), radius2 = volume.lightSize.x * volume.lightSize.x;
+        if (distance2 <= radius2 * 1.0001) return false;
+        frame.tangent = sqrt(radius2 / (distance2 - radius2));
+        float distance = sqrt(distance2);
+        vec3 axis = -p / distance;
+        vec3 side = normalize(abs(axis.x) < 0.7 ? cross(vec3(1.0, 0.0, 0.0), axis) : cross(vec3(0.0, 1.0, 0.0), axis));
+        vec3 up = cross(axis, side);
+        float radius = frame.tangent * distance;
+        u = side * radius;
+        v = up * radius;
+        center = -p;
+        frame.x = side / radius;
+        frame.y = up / radius;
+        frame.z = axis / distance;
+    } else {
+        if (p.z == 0.0 || (volume.lightKind.y == 1 && p.z > 0.0)) return false;
+        vec2 size = volume.lightSize.xy;
+        u = vec3(size.x, 0.0, 0.0);
+        v = vec3(0.0, size.y, 0.0);
+        center = -p;
+        frame.handedness = p.z < 0.0 ? 1.0 : -1.0;
+        frame.z = vec3(0.0, 0.0, -1.0 / p.z);
+        frame.x = vec3(1.0 / size.x, 0.0, -p.x / (p.z * size.x));
+        frame.y = vec3(0.0, 1.0 / size.y, -p.y / (p.z * size.y));
+    }
+    frame.rounding = 1e-5 * length(center);
+    frame.horizon = vec3(dot(receiver.normalLight, u), dot(receiver.normalLight, v), dot(receiver.normalLight, center));
+    return true;
+}
+
+bool isSquareLight() { return volume.lightKind.x == shapeRect; }
+
+// 1: all of the light is above the horizon; -1: none; 0: some. A square's corners bound a disk, too.
+int horizonSide(LightFrame frame) {
+    float reach = isSquareLight() ? abs(frame.horizon.x) + abs(frame.horizon.y) : length(frame.horizon.xy);
+    return frame.horizon.z >= reach ? 1 : frame.horizon.z + reach <= frame.rounding ? -1 : 0;
+}
+
+bool isAboveHorizon(LightFrame frame, vec2 s) { return dot(frame.horizon, vec3(s, 1.0)) > 0.0; }
+
+const float nearestBlocker = 1e-6;  // of the distance to the light: blockers nearer than this are the surface itself
+
+// The part of an edge that can hide the light, in unit space, not yet divided by z. False if there is none.
+bool edgeBeforeLight(LightFrame frame, vec3 posLight, vec3 aLight, vec3 bLight, out vec3 a, out vec3 b) {
+    vec3 fromA = aLight - posLight, fromB = bLight - posLight;
+    a = vec3(dot(frame.x, fromA), dot(frame.y, fromA), dot(frame.z, fromA));
+    b = vec3(dot(frame.x, fromB), dot(frame.y, fromB), dot(frame.z, fromB));
+    if (max(a.z, b.z) <= nearestBlocker || (!frame.isEndless && min(a.z, b.z) >= 1.0)) return false;
+    // Off the light to one side?
+    if (a.x > a.z && b.x > b.z || a.x < -a.z && b.x < -b.z || a.y > a.z && b.y > b.z || a.y < -a.z && b.y < -b.z)
+        return false;
+    if (a.z < nearestBlocker) a = mix(a, b, (nearestBlocker - a.z) / (b.z - a.z));
+    if (b.z < nearestBlocker) b = mix(b, a, (nearestBlocker - b.z) / (a.z - b.z));
+    if (!frame.isEndless) {
+        if (a.z > 1.0) a = mix(a, b, (1.0 - a.z) / (b.z - a.z));
+        if (b.z > 1.0) b = mix(b, a, (1.0 - b.z) / (a.z - b.z));
+    }
+    return true;
+}
+
+// The area of the unit square (or disk) in the angle from direction `a` to `b`, the smaller of the two, as a share of
+// the whole: the first lookup of the thesis (figures 12 a and 14 a), in closed form. Within each of the square's four
+// sides the area grows with the tangent.
+float squareAreaTo(vec2 d) {
+    vec2 size = abs(d);
+    if (size.x >= size.y) return (d.x > 0.0 ? 0.0 : 2.0) + 0.5 * d.y / d.x;
+    return (d.y > 0.0 ? 1.0 : 3.0) - 0.5 * d.x / d.y;
+}
+
+float sectorShare(vec2 a, vec2 b, float turn) {
+    if (!isSquareLight()) return abs(atan(turn, dot(a, b))) / lightTau;
+    float area = abs(squareAreaTo(b) - squareAreaTo(a));
+    return 0.25 * min(area, 4.0 - area);
+}
+
+// The share of the light that lies beyond the segment from `a` to `b` (unit space, divided by z) as seen from the
+// light's centre: the angle's area less the triangle's (figures 12 c and 14 c), for the part inside the light.
+float shareBeyond(vec2 a, vec2 b) {
+    vec2 along = b - a;
+    float begin = 0.0, end = 1.0;
+    if (isSquareLight()) {
+        // Liang and Barsky 1984.
+        for (int axis = 0; axis < 2; ++axis) {
+            if (along[axis] == 0.0) {
+                if (abs(a[axis]) >= 1.0) return 0.0;
+                continue;
+            }
+            float t0 = (-1.0 - a[axis]) / along[axis], t1 = (1.0 - a[axis]) / along[axis];
+            begin = max(begin, min(t0, t1));
+            end = min(end, max(t0, t1));
+        }
+    } else {
+        float square = dot(along, along);
+        if (square == 0.0) return 0.0;
+        float nearest = -dot(a, along) / square;
+        vec2 foot = a + nearest * along;
+        float half2 = (1.0 - dot(foot, foot)) / square;
+        if (half2 <= 0.0) return 0.0;
+        begin = max(begin, nearest - sqrt(half2));
+        end = min(end, nearest + sqrt(half2));
+    }
+    if (begin >= end) return 0.0;
+    vec2 from = a + begin * along, to = a + end * along;
+    float turn = from.x * to.y - from.y * to.x;
+    float triangle = 0.5 * abs(turn) / (isSquareLight() ? 4.0 : 0.5 * lightTau);
+    return max(sectorShare(from, to, turn) - triangle, 0.0);
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 450
+// For each large tile a list of the edges that may matter there, as bits: as long for every tile, in the same order
+// always, and never too short.
+layout(local_size_x = 64) in;
+
+#include "src/techniques/soft_shadow_volumes/volumes_io.h"
+#include "src/techniques/soft_shadow_volumes/tile_shaft.glsl"
+
+layout(std430, binding = 0) readonly buffer Bounds { TileBounds bounds[]; };
+layout(std430, binding = 1) readonly buffer LightEdges { LightEdge lightEdges[]; };
+layout(std430, binding = 2) readonly buffer Eye { EyeState eye; };
+layout(std430, binding = 3) writeonly buffer Lists { uint lists[]; };
+
+void main() {
+    ivec2 smallTiles = (volume.buffer_px.xy + 7) / 8;
+    ivec2 first = ivec2(gl_WorkGroupID.xy) * volume.tiles.z;
+    ivec2 end = min(first + volume.tiles.z, smallTiles);
+    TileBounds tile = TileBounds(vec4(1.0), vec4(0.0));
+    for (int y = first.y; y < end.y; ++y) {
+        for (int x = first.x; x < end.x; ++x) {
+            TileBounds part = bounds[y * volume.tiles.x + x];
+            if (part.low.x > part.high.x) continue;
+            bool isEmpty = tile.low.x > tile.high.x;
+            tile.low = isEmpty ? part.low : min(tile.low, part.low);
+            tile.high = isEmpty ? part.high : max(tile.high, part.high);
+        }
+    }
+    bool isEmpty = tile.low.x > tile.high.x;
+    prepareShaft(tile);
+    uint list = (gl_WorkGroupID.y * uint(volume.tiles.y) + gl_WorkGroupID.x) * uint(volume.tiles.w);
+    uint words = (eye.edgeCount + 31u) / 32u;
+    for (uint word = gl_LocalInvocationIndex; word < words; word += 64u) {
+        uint bits = 0u;
+        uint count = isEmpty ? 0u : min(32u, eye.edgeCount - 32u * word);
+        for (uint i = 0u; i < count; ++i) {
+            if (mayMatter(lightEdges[32u * word + i])) bits |= 1u << i;
+        }
+        lists[list + word] = bits;
+    }
+}

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "studio/scene/builtin/builtin.h"
+#include "tests/support/technique_test.h"
+
+namespace penumbra::studio {
+namespace {
+
+using HardVolumesTest = TechniqueTest;
+using SoftVolumesTest = TechniqueTest;
+
+constexpr PictureSize size{240, 180};
+const Settings wedges = {{"method", "wedges"}};
+
+double largestDifference(const LightResult& a, const LightResult& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.visibility.values.size(); ++i) {
+        largest =
+            std::max(largest, std::abs(double(a.visibility.values[i]) - double(b.visibility.values[i])));
+    }
+    return largest;
+}
+
+Scene withIndices(Scene scene, const std::function<void(std::vector<std::uint32_t>&)>& change) {
+    for (Mesh& mesh : scene.meshes) change(mesh.indices);
+    return scene;
+}
+
+TEST_F(HardVolumesTest, EqualTheReferenceForALightOfSizeZero) {
+    // One pixel in a thousand may see the two differ about the pixel's own edge.
+    for (const char* name :
+         {"primitives", "torus", "two-boxes", "overlapping-blockers", "columns", "half-plane"}) {
+        const Scene scene = withLight(makeBuiltin(name), shrinkToPoint);
+        const LightResult exact = truth(scene, size, 2);
+        for (const char* counting : {"auto", "z-fail"}) {
+            EXPECT_LE(shareOfDifferentPixels(
+                          exact, render("hard-volumes", scene, size, {{"counting", counting}}), 0.5f),
+                      0.001)
+                << name << " " << counting;
+        }
+    }
+}
+
+TEST_F(HardVolumesTest, EyeInShadowOrInABlockerChangesNothing) {
+    for (const glm::vec3 eye :
+         {glm::vec3(0.05f, 0.31f, 0.02f), glm::vec3(0.3f, 0.05f, 0.2f), glm::vec3(0.1f, 1.0f, 0)}) {
+        const Scene scene = withLight(withMoment(makeBuiltin("two-boxes"),
+                                                 [&](SceneMoment& moment) {
+                                                     Camera& camera = moment.cameras.front();
+                                                     camera.worldFromCamera = glm::inverse(glm::lookAt(
+                                                         eye, glm::vec3(1.5f, 0, -1), glm::vec3(0, 1, 0)));
+                                                 }),
+                                      shrinkToPoint);
+        const LightResult exact = truth(scene, size, 2);
+        for (const char* counting : {"z-pass", "z-fail"}) {
+            EXPECT_LE(shareOfDifferentPixels(
+                          exact, render("hard-volumes", scene, size, {{"counting", counting}}), 0.5f),
+                      0.001)
+                << counting;
+        }
+    }
+}
+
+TEST_F(HardVolumesTest, OrthographicViewsAndDistantLights) {
+    const Scene scene =
+        withLight(withMoment(makeBuiltin("two-boxes"),
+                             [](SceneMoment& moment) { moment.cameras.front().orthographicHeight_m = 4.0f; }),
+                  [](Light& light) {
+                      light.shape.shape = LightShape::distant;
+                      shrinkToPoint(light);
+                  });
+    const LightResult exact = truth(scene, size, 2);
+    for (const char* counting : {"auto", "z-fail"}) {
+        EXPECT_LE(shareOfDifferentPixels(exact, render("hard-volumes", scene, size, {{"counting", counting}}),
+                                         0.5f),
+                  0.001)
+            << counting;
+    }
+}
+
+TEST_F(HardVolumesTest, SoupNeedsNoOrderAndNoClosedMeshes) {
+    const auto soup = [](int kind) {
+        return withLight(withIndices(makeBuiltin("primitives"),
+                                     [kind](std::vector<std::uint32_t>& indices) {
+                                         for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+                                             // Some wound the other way.
+                                             if (kind > 0 && i % 7 < 3) std::swap(indices[i], indices[i + 1]);
+                                         }
+                                         // Every triangle once more, so that edges have four faces.
+                                         if (kind == 2) {
+                                             const std::vector<std::uint32_t> copy = indices;
+                                             indices.insert(indices.end(), copy.begin(), copy.end());
+                                         }
+                                         // Holes.
+                                         if (kind == 3 && indices.size() > 30)
+                                             indices.resize(indices.size() / 6 * 3);
+                                     }),
+                         shrinkToPoint);
+    };
+    for (const int kind : {1, 2, 3}) {
+        const Scene scene = soup(kind);
+        EXPECT_LE(shareOfDifferentPixels(truth(scene, size, 2), render("hard-volumes", scene, size), 0.5f),
+                  0.001)
+            << kind;
+    }
+}
+
+TEST_F(SoftVolumesTest, SingleBlockersAreAsGoodAsTheReferenceCanTell) {
+    for (const char* name : {"sphere", "two-boxes", "disk-over-ground", "torus"}) {
+        const Scene scene = makeBuiltin(name);
+        const VisibilityMetrics metrics = judge(truth(scene, size), render("soft-volumes", scene, size));
+        EXPECT_LE(metrics.mae, 0.005) << name;
+        EXPECT_LE(metrics.penumbra_rmse, 0.03) << name;
+    }
+}
+
+TEST_F(SoftVolumesTest, LargeLightsAreNoHarder) {
+    // A light half as wide as it is far, where silhouettes from its centre are far from the truth.
+    for (const LightShape shape :
+         {LightShape::rect, LightShape::disk, LightShape::sphere, LightShape::distant}) {
+        const Scene scene = withLight(makeBuiltin("sphere"), [&](Light& light) {
+            const auto& place = light.shape.worldFromLight.columns[3];
+            const float away_m =
+                glm::distance(glm::vec3(place[0], place[1], place[2]), glm::vec3(0, 1.5f, 0));
+            light.shape.shape = shape;
+            light.shape.width_m = light.shape.height_m = 0.5f * away_m;
+            light.shape.radius_m = 0.25f * away_m;
+            light.shape.angle_rad = 0.49f;
+        });
+        const VisibilityMetrics metrics = judge(truth(scene, size), render("soft-volumes", scene, size));
+        EXPECT_LE(metrics.mae, 0.005) << int(shape);
+        EXPECT_LE(metrics.penumbra_rmse, 0.03) << int(shape);
+    }
+}
+
+TEST_F(SoftVolumesTest, OverlappingBlockersAreAUnion) {
+    const Scene scene = makeBuiltin("overlapping-blockers");
+    const VisibilityMetrics metrics = judge(truth(scene, size), render("soft-volumes", scene, size));
+    EXPECT_LE(metrics.mae, 0.01);
+    EXPECT_LE(metrics.penumbra_rmse, 0.03);
+    // Wedges add them up (thesis, section 5).
+    EXPECT_GT(judge(truth(scene, size), render("soft-volumes", scene, size, wedges)).penumbra_rmse,
+              2 * metrics.penumbra_rmse);
+}
+
+TEST_F(SoftVolumesTest, LayersAndWedgesAgreeWhereBothAreRight) {
+    // An open sheet, a single silhouette from everywhere on the light: both are the exact area, the one added
+    // up in millionths.
+    for (const char* name : {"half-plane", "disk-over-ground"}) {
+        const Scene scene = makeBuiltin(name);
+        const LightResult layers = render("soft-volumes", scene, size);
+        EXPECT_LE(shareOfDifferentPixels(layers, render("soft-volumes", scene, size, wedges), 1e-3f), 0.002)
+            << name;
+    }
+}
+
+TEST_F(SoftVolumesTest, WindingAndDuplicatesAreNothingToIt) {
+    const Scene plain = makeBuiltin("two-boxes");
+    const Scene flipped = withIndices(plain, [](std::vector<std::uint32_t>& indices) {
+        for (std::size_t i = 0; i + 2 < indices.size(); i += 6) std::swap(indices[i], indices[i + 1]);
+    });
+    const Scene doubled = withIndices(plain, [](std::vector<std::uint32_t>& indices) {
+        const std::vector<std::uint32_t> copy = indices;
+        indices.insert(indices.end(), copy.begin(), copy.end());
+    });
+    const LightResult result = render("soft-volumes", plain);
+    EXPECT_LE(largestDifference(result, render("soft-volumes", flipped)), 1e-4);
+    // Where a blocker covers less than lies between samples, nothing tells that it is there twice.
+    EXPECT_LE(largestDifference(result, render("soft-volumes", doubled)), 1.0 / 64);
+}
+
+TEST_F(SoftVolumesTest, SmallerVBuffersDoNotBleed) {
+    const Scene scene = makeBuiltin("two-boxes");
+    const LightResult exact = truth(scene, size, 64);
+    const LightResult full = render("soft-volumes", scene, size);
+    for (const char* part : {"half", "quarter"}) {
+        const LightResult result = render("soft-volumes", scene, size, {{"v_buffer", part}});
+        const VisibilityMetrics metrics = judge(exact, result);
+        // Of lit pixels; most of those are the blur at contacts, which four pixels of a small picture are
+        // wide.
+        EXPECT_LE(metrics.false_shadow, 0.02) << part;
+        EXPECT_LE(shareOfDifferentPixels(full, result, 0.25f), 0.03) << part;
+    }
+}
+
+TEST_F(SoftVolumesTest, TexturedLightsHaveThreeVisibilities) {
+    const Scene scene = makeBuiltin("textured-window");
+    const LightResult result = render("soft-volumes", scene, size);
+    ASSERT_EQ(result.visibility.channels, 3);
+    const VisibilityMetrics metrics = judge(truth(scene, size), result);
+    EXPECT_LE(metrics.mae, 0.01);
+    EXPECT_LE(metrics.penumbra_rmse, 0.04);
+}
+
+}  // namespace
+}  // namespace penumbra::studio

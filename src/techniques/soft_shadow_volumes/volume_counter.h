@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shadow algorithms for computer graphics (F. Crow, SIGGRAPH 1977), counted in floats instead of a stencil
+// buffer: for each receiver the number of triangles between it and the light's centre. README.md has the
+// derivation.
+#pragma once
+
+#include "src/gl/framebuffer.h"
+#include "src/gl/pass_timers.h"
+#include "src/gl/texture.h"
+#include "src/gl/vertex_array.h"
+#include "src/techniques/soft_shadow_volumes/volume_frame.h"
+
+namespace penumbra {
+
+/// How crossings of a volume's sides are counted.
+enum class Counting {
+    automatic,  ///< Z-pass, unless the eye is within rounding of a side
+    zPass,      ///< those before the receiver, from the number at the eye
+    zFail,      ///< those behind the receiver, and the caps (Carmack 2000)
+};
+
+class VolumeCounter {
+  public:
+    explicit VolumeCounter(Device& device);
+
+    /// Finds the silhouettes and counts. `constants` and the view must be bound to uniform blocks 1 and 0.
+    void render(const VolumeFrame& frame, Counting counting);
+
+    /// The counts (R32F) and the state of the eye (EyeState), whose `blockers` are to be added to them.
+    void bind(unsigned unit, unsigned block) const;
+    void bindLayersEach(unsigned block) const { layersEach_.bind(block); }
+
+    const gl::Texture& counts() const { return counts_; }
+    const gl::Texture& depth() const { return depth_; }
+    const SilhouetteExtractor& silhouettes() const { return silhouettes_; }
+    const gl::Buffer& eye() const { return eye_; }
+
+  private:
+    void allocate(int width_px, int height_px);
+    void examineEye(const VolumeFrame& frame, Counting counting);
+    void drawSides(std::size_t commandOffset, float sign) const;
+    void drawCaps(const VolumeFrame& frame, std::size_t ofPair, float sign) const;
+
+    SilhouetteExtractor silhouettes_;
+    gl::Program blockers_, safety_, choose_, depthCopy_, sides_, caps_;
+    gl::VertexArrayHandle noVertices_;
+    gl::StorageArray<int> layersEach_;
+    gl::Buffer eye_;
+    gl::Buffer capCommands_;
+    gl::Texture counts_, depth_;
+    gl::Framebuffer framebuffer_;
+};
+
+}  // namespace penumbra

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/techniques/soft_shadow_volumes/volume_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "src/techniques/common/glm_types.h"
+#include "src/techniques/common/light_camera.h"
+#include "src/techniques/common/view_constants.h"
+
+namespace penumbra {
+namespace {
+
+/// Where all lines of sight meet, in view space: the point that clip space has at (0, 0, infinity). An
+/// orthographic camera's is a direction, here the one towards the viewer.
+glm::dvec4 eyeView(const View& view) {
+    const glm::dvec4 eye = glm::inverse(toGlm(view.clipFromView)) * glm::dvec4(0, 0, 1, 0);
+    if (std::abs(eye.w) > 1e-9 * glm::length(glm::dvec3(eye))) return eye / eye.w;
+    if (eye.w != 0 && glm::dvec3(eye) == glm::dvec3(0)) return {0, 0, 0, 1};
+    return {0, 0, 1, 0};
+}
+
+/// Clip space of the V-buffer: stored depths as in the view's depth texture, texel centres on pixel centres.
+///
+/// Texel i is at ndc' = 2 (i + 1/2) / m - 1, its pixel k i at ndc = 2 (k i + 1/2) / n - 1, hence
+/// ndc = (k m / n) ndc' + (k m - k + 1) / n - 1.
+glm::dmat4 bufferFromClip(const View& view, const glm::ivec2& size_px, int pixelsPerTexel) {
+    glm::dmat4 matrix(1);
+    const glm::ivec2 view_px(view.width_px, view.height_px);
+    for (int axis = 0; axis < 2; ++axis) {
+        const double scale = double(pixelsPerTexel) * size_px[axis] / view_px[axis];
+        const double shift = (double(pixelsPerTexel) * (size_px[axis] - 1) + 1) / view_px[axis] - 1;
+        matrix[axis][axis] = 1 / scale;
+        matrix[3][axis] = -shift / scale;
+    }
+    if (view.depth.range == DepthConvention::Range::minusOneToOne) matrix[2][2] = matrix[3][2] = 0.5;
+    return matrix;
+}
+
+/// How far from the eye the near plane reaches; infinite for orthographic views.
+double nearReach_m(const View& view) {
+    const glm::dmat4 viewFromClip = glm::inverse(toGlm(view.clipFromView));
+    const bool zeroToOne = view.depth.range == DepthConvention::Range::zeroToOne;
+    const double nearest = view.depth.reversed ? 1 : zeroToOne ? 0 : -1;
+    double reach_m = 0;
+    for (const glm::dvec2 corner :
+         {glm::dvec2(-1, -1), glm::dvec2(-1, 1), glm::dvec2(1, -1), glm::dvec2(1, 1)}) {
+        const glm::dvec4 posView = viewFromClip * glm::dvec4(corner, nearest, 1);
+        reach_m = std::max(reach_m, glm::length(glm::dvec3(posView) / posView.w));
+    }
+    return eyeView(view).w == 0 ? std::numeric_limits<double>::infinity() : reach_m;
+}
+
+}  // namespace
+
+bool hasNoSize(const AreaLight& light) {
+    switch (light.shape) {
+        case LightShape::rect:
+            return light.width_m <= 0 && light.height_m <= 0;
+        case LightShape::disk:
+        case LightShape::sphere:
+            return light.radius_m <= 0;
+        case LightShape::distant:
+            return light.angle_rad <= 0;
+    }
+    return true;
+}
+
+void AlphaMaskWarning::check(std::span<const Caster> casters) {
+    if (said_) return;
+    said_ = std::ranges::any_of(
+        casters, [](const Caster& caster) { return caster.casts && caster.alphaMask.texture != 0; });
+    if (said_) {
+        log_.write(LogLevel::warning,
+                   "shadow volumes: alpha-masked casters block light as if their masks had no holes; the "
+                   "techniques of "
+                   "shadow maps see the holes");
+    }
+}
+
+VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel)
+    : lightFromWorld(penumbra::lightFromWorld(inputs)) {
+    const View& view = inputs.view;
+    const AreaLight& light = inputs.light;
+    const glm::dmat4 lightFromView = lightFromWorld * glm::inverse(toGlm(view.viewFromWorld));
+    const glm::ivec2 size_px((view.width_px + pixelsPerTexel - 1) / pixelsPerTexel,
+                             (view.height_px + pixelsPerTexel - 1) / pixelsPerTexel);
+
+    constants.eyeLight = lightFromView * eyeView(view);
+    const double reach_m = nearReach_m(view);
+    double highest_m = -std::numeric_limits<double>::max();
+    for (const Caster& caster : inputs.casters) {
+        if (!caster.casts || caster.mesh->indices().empty()) continue;
+        sources.push_back({caster.mesh, lightFromWorld * toGlm(caster.worldFromMesh)});
+        layersEach.push_back(1);
+        const Box& box = caster.mesh->bounds();
+        glm::dvec3 lowest(std::numeric_limits<double>::max()), highest(-lowest);
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec4 posMesh((corner & 1) ? box.max.x : box.min.x,
+                                     (corner & 2) ? box.max.y : box.min.y,
+                                     (corner & 4) ? box.max.z : box.min.z, 1);
+            const glm::dvec3 posLight(sources.back().lightFromMesh * posMesh);
+            lowest = glm::min(lowest, posLight);
+            highest = glm::max(highest, posLight);
+        }
+        highest_m = std::max(highest_m, highest.z);
+        const glm::dvec3 eyeLight(constants.eyeLight);
+        mayHide = mayHide || !(glm::distance(glm::clamp(eyeLight, lowest, highest), eyeLight) > reach_m);
+    }
+
+    // A line of light is given a thousandth of its length for a width, so that areas can be divided by.
+    glm::dvec2 half(0.5 * light.width_m, 0.5 * light.height_m);
+    half = glm::max(half, glm::dvec2(1e-3 * std::max(half.x, half.y)));
+    if (light.shape != LightShape::rect) half = glm::dvec2(light.radius_m);
+    // A tangent ends at 90 degrees; nothing is lost by stopping a quarter of a degree before.
+    const double tangent = std::tan(std::min(0.5 * double(light.angle_rad), 1.5665));
+
+    constants.clipFromLight = bufferFromClip(view, size_px, pixelsPerTexel) * toGlm(view.clipFromView) *
+                              glm::inverse(lightFromView);
+    constants.lightSize = glm::dvec4(half, tangent, highest_m);
+    constants.lightKind = {int(light.shape), isOneSided(light), hasNoSize(light), light.radianceTexture != 0};
+    constants.buffer_px = {size_px, pixelsPerTexel, view.depth.reversed};
+}
+
+LightPoint VolumeFrame::center() const {
+    return constants.lightKind.x == int(LightShape::distant) ? LightPoint(0, 0, 1, 0)
+                                                             : LightPoint(0, 0, 0, 1);
+}
+
+}  // namespace penumbra

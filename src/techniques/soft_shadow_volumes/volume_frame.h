@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "penumbra/technique.h"
+#include "src/device_internals.h"
+#include "src/geometry/silhouette_extractor.h"
+#include "src/gl/buffer.h"
+#include "src/techniques/soft_shadow_volumes/volumes_io.h"
+
+namespace penumbra {
+
+/// What both techniques of the room prepare on the CPU for a frame.
+struct VolumeFrame {
+    glm::dmat4 lightFromWorld{1};
+    VolumeConstants constants{};
+    std::vector<SilhouetteSource> sources;  ///< the casters that cast and have triangles
+
+    std::vector<int> layersEach;  ///< for each source: as how many layers a triangle of it counts
+
+    /// A triangle may lie between the eye and a receiver without being seen: before the near plane, as it may
+    /// in every orthographic view.
+    bool mayHide = false;
+
+    /// `pixelsPerTexel`: 1, 2, 4: the V-buffer's texel (i, j) stands for the pixel at that multiple of (i,
+    /// j).
+    VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel);
+
+    /// The light's centre.
+    LightPoint center() const;
+};
+
+/// Says once in the log that holes of alpha masks are not seen: edges are the triangles', and a masked caster
+/// blocks as a whole.
+class AlphaMaskWarning {
+  public:
+    explicit AlphaMaskWarning(Device& device) : log_(device.internals().log) {}
+    void check(std::span<const Caster> casters);
+
+  private:
+    const gl::DebugLog& log_;
+    bool said_ = false;
+};
+
+/// Whether the light is a point, so that its shadow is hard.
+bool hasNoSize(const AreaLight& light);
+
+}  // namespace penumbra

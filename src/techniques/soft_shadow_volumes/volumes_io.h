@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the passes of this room hand to each other; one set of structs for C++ and GLSL (std140, std430).
+#ifndef PENUMBRA_VOLUMES_IO_H
+#define PENUMBRA_VOLUMES_IO_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#include <glm/glm.hpp>
+namespace penumbra {
+using glm::ivec4;
+using glm::mat4;
+using glm::uvec4;
+using glm::vec4;
+using uint = std::uint32_t;
+#endif
+
+// The light, the eye and the V-buffer as all passes see them, in light space.
+struct VolumeConstants {
+    // The view's, shifted so that texels of the V-buffer lie on the pixels they stand for.
+    mat4 clipFromLight;
+    // Homogeneous: w = 1 a place, w = 0 the direction towards an orthographic viewer.
+    vec4 eyeLight;
+    // xy: half width and height, or radius; z: tangent of half a distant light's angle; w: the highest
+    // caster's z.
+    vec4 lightSize;
+    // x: LightShape; y: 1 if one-sided; z: 1 if it has no size; w: 1 if it has a radiance texture.
+    ivec4 lightKind;
+    // xy: the V-buffer's size; z: pixels a texel, along each axis; w: 1 if depth is reversed.
+    ivec4 buffer_px;
+    // x: small tiles a row; y: large tiles a row; z: small tiles along a large one; w: words a list.
+    ivec4 tiles;
+};
+
+// An edge with one or two of its faces, in light space; an edge of more faces is several of these, whose
+// weights add. A face's plane, dotted with (p, 1), is positive where p sees its front, times the direction in
+// which the face walks the edge; that of a missing face is 0.
+struct LightEdge {
+    vec4 aLight;
+    vec4 bLight;
+    vec4 planes[2];
+};
+
+// What is known about the eye, and how the volumes are drawn.
+struct EyeState {
+    int blockers;        // triangles between the light's centre and the eye
+    int unsafe;          // 1 if the eye is too close to the side of a shadow volume for Z-pass
+    uint edgeCount;      // light edges gathered
+    int blockersBehind;  // and an orthographic view's other end
+    uvec4 passSides;     // DrawArraysIndirectCommand
+    uvec4 failSides;
+    uvec4 wedges;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(VolumeConstants) == 144 && sizeof(LightEdge) == 64 && sizeof(EyeState) == 64);
+}  // namespace penumbra
+#else
+const int shapeRect = 0, shapeDisk = 1, shapeSphere = 2, shapeDistant = 3;
+layout(std140, binding = 1) uniform VolumeBlock {
+    VolumeConstants volume;
+};
+
+// From the light's centre through a point: the direction in which the point's shadow falls.
+vec3 shadowDirection(vec3 posLight) {
+    return volume.lightKind.x == shapeDistant ? vec3(0.0, 0.0, -1.0) : posLight;
+}
+
+// On which side of the plane through the light's centre and the edge a homogeneous point lies.
+float sideOfEdge(vec3 aLight, vec3 bLight, vec4 posLight) {
+    return dot(cross(shadowDirection(aLight), bLight - aLight), posLight.xyz - posLight.w * aLight);
+}
+#endif
+#endif

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 450
+// Visibility as the thesis has it: one, less the umbra of the light's centre, plus and minus what the wedges say.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#include "src/techniques/common/view.glsl"
+#include "src/techniques/soft_shadow_volumes/volumes_io.h"
+#include "src/techniques/soft_shadow_volumes/lifted_receiver.glsl"
+#include "src/techniques/soft_shadow_volumes/light_area.glsl"
+
+layout(binding = 3) uniform sampler2D volumeCounts;
+layout(binding = 5) uniform sampler2D wedgeLayers;
+layout(std430, binding = 2) readonly buffer Eye { EyeState eye; };
+layout(binding = 0) uniform writeonly image2D visibility;
+
+void main() {
+    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(texel, volume.buffer_px.xy))) return;
+    Receiver receiver;
+    LightFrame frame;
+    float seen = 1.0;
+    if (loadLiftedReceiver(texel, receiver)) {
+        seen = 0.0;
+        if (makeLightFrame(receiver, frame) && horizonSide(frame) >= 0) {
+            float hard = 0.5 * (texelFetch(volumeCounts, texel, 0).r + float(eye.blockers));
+            vec2 layers = texelFetch(wedgeLayers, texel, 0).rg;
+            seen = clamp(1.0 - hard + layers.x - layers.y, 0.0, 1.0);
+        }
+    }
+    imageStore(visibility, texel, vec4(seen));
+}
