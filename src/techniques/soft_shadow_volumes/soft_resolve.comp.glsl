@@ -18,7 +18,7 @@ layout(std430, binding = 0) readonly buffer Bounds { TileBounds bounds[]; };
 layout(std430, binding = 1) readonly buffer LightEdges { LightEdge lightEdges[]; };
 layout(std430, binding = 2) readonly buffer Eye { EyeState eye; };
 layout(std430, binding = 3) readonly buffer Lists { uint lists[]; };
-layout(std430, binding = 4) readonly buffer Samples { vec4 samples[]; };   // xy: place in unit space; z: its square
+layout(std430, binding = 4) readonly buffer Samples { vec4 samples[]; };   // xy: place in unit space; z: rank from the centre; w: direction in turns, rising
 layout(std430, binding = 5) readonly buffer Radiances { vec4 radiances[]; };
 layout(binding = 3) uniform sampler2D volumeCounts;
 layout(binding = 0) uniform writeonly image2D visibility;
@@ -79,6 +79,21 @@ bool isCrossed(vec2 a, vec2 b, float turn, vec2 s) {
     return isBetween && beyond * turn < 0.0;
 }
 
+float directionOf(vec2 d) { return fract(atan(d.y, d.x) / lightTau); }
+
+const float directionRounding = 1e-4;  // turns; a hundred times what atan is off
+
+// The first point whose direction is not before this one; SAMPLES becomes 0, since directions go round.
+int firstSampleFrom(float direction) {
+    int low = 0, high = SAMPLES;
+    for (int step = 0; step < 9 && low < high; ++step) {
+        int middle = (low + high) / 2;
+        if (samples[middle].w < direction) low = middle + 1;
+        else high = middle;
+    }
+    return low % SAMPLES;
+}
+
 // Adds what an edge changes on the way from the light's centre to each of its points.
 bool addEdge(LightFrame frame, Receiver receiver, vec2 top, LightEdge edge) {
     vec4 p = vec4(receiver.posLight, 1.0);
@@ -92,7 +107,16 @@ bool addEdge(LightFrame frame, Receiver receiver, vec2 top, LightEdge edge) {
     int change = int(sign(turn) * weight * frame.handedness);
     leastChange = min(leastChange, abs(change));
     meanChangeFixed += change * int(shareBeyond(a.xy, b.xy) * fixedOne + 0.5);
-    for (int i = 0; i < SAMPLES; ++i) changes[i] += isCrossed(a.xy, b.xy, turn, samplePlace(frame, i)) ? change : 0;
+    // Only points in the directions between the edge's ends can lie behind it; they follow each other in the list.
+    float first = directionOf(turn > 0.0 ? a.xy : b.xy), last = directionOf(turn > 0.0 ? b.xy : a.xy);
+    float span = fract(last - first) + 2.0 * directionRounding;
+    first = fract(first - directionRounding);
+    int start = firstSampleFrom(first);
+    for (int n = 0; n < SAMPLES; ++n) {
+        int i = start + n < SAMPLES ? start + n : start + n - SAMPLES;
+        if (fract(samples[i].w - first) > span) break;
+        changes[i] += isCrossed(a.xy, b.xy, turn, samplePlace(frame, i)) ? change : 0;
+    }
     changeAtTop += isCrossed(a.xy, b.xy, turn, top) ? change : 0;
     return true;
 }

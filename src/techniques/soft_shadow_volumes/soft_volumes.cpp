@@ -41,8 +41,11 @@ std::vector<glm::vec4> spreadSamples(int count, bool onSquare) {
             place = std::sqrt(along) * glm::dvec2(std::cos(glm::two_pi<double>() * turn),
                                                   std::sin(glm::two_pi<double>() * turn));
         }
-        samples.emplace_back(place, along, 0);
+        const double direction = std::atan2(place.y, place.x) / glm::two_pi<double>();
+        samples.emplace_back(place, along, direction - std::floor(direction));
     }
+    // Edges look up the points behind them by direction.
+    std::ranges::sort(samples, {}, &glm::vec4::w);
     return samples;
 }
 
@@ -57,7 +60,7 @@ void countAsBlockers(VolumeFrame& frame) {
 
 constexpr int mostSamples = 256;
 /// A textured light has no exact area to correct its samples with.
-constexpr int texturedFactor = 4;
+constexpr int texturedFactor = 2;
 constexpr int smallTile_px = 8;
 constexpr int largeTile_px = 32;
 /// The lists of large tiles, which are made larger rather than exceed this.
