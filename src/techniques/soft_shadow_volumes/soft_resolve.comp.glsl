@@ -86,10 +86,12 @@ const float directionRounding = 1e-4;  // turns; a hundred times what atan is of
 // The first point whose direction is not before this one; SAMPLES becomes 0, since directions go round.
 int firstSampleFrom(float direction) {
     int low = 0, high = SAMPLES;
-    for (int step = 0; step < 9 && low < high; ++step) {
+    // Nine halvings do for 256 points; without an exit in between, so that compilers unroll them.
+    for (int step = 0; step < 9; ++step) {
         int middle = (low + high) / 2;
-        if (samples[middle].w < direction) low = middle + 1;
-        else high = middle;
+        bool isBefore = low < high && samples[middle].w < direction;
+        high = isBefore ? high : middle;
+        low = isBefore ? middle + 1 : low;
     }
     return low % SAMPLES;
 }

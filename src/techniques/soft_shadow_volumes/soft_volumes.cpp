@@ -200,7 +200,8 @@ void SoftVolumes::resolve(GLuint target, GLenum format) {
         bindStorage(1, lightEdges_);
         bindStorage(3, tileLists_);
         const int large_px = frame_.tiles.z * smallTile_px;
-        glDispatchCompute(GLuint(frame_.tiles.y), GLuint((size_px.y + large_px - 1) / large_px), 1);
+        glDispatchCompute(GLuint(frame_.tiles.y), GLuint((size_px.y + large_px - 1) / large_px),
+                          GLuint(frame_.tiles.w / 512 + 1));
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     }
     const auto pass = timers_.pass("soft-volumes/visibility");

@@ -90,10 +90,14 @@ void prepareShaft(TileBounds tile) {
 
 // False only if the edge hides nothing of the light from any receiver of the tile.
 bool mayMatter(LightEdge edge) {
+    // Without an exit in between, so that compilers unroll it.
+    bool isOutside = false;
     for (int i = 0; i < shaftPlaneCount; ++i) {
         vec4 plane = shaft[i];
-        if (dot(plane.xyz, edge.aLight.xyz) > plane.w && dot(plane.xyz, edge.bLight.xyz) > plane.w) return false;
+        isOutside = isOutside ||
+                    min(dot(plane.xyz, edge.aLight.xyz), dot(plane.xyz, edge.bLight.xyz)) > plane.w;
     }
+    if (isOutside) return false;
     // Two faces that all receivers see continue each other, or one behind the other's back, make no silhouette.
     float first = tileSide(edge.planes[0], shaftTile), second = tileSide(edge.planes[1], shaftTile);
     return first == 0.0 || first != -second;
