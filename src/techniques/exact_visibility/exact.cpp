@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/techniques/exact_visibility/exact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "src/techniques/common/glm_types.h"
+
+namespace penumbra {
+namespace {
+
+constexpr const char* candidatesShader = "src/techniques/exact_visibility/candidates.comp.glsl";
+constexpr const char* resolveShader = "src/techniques/exact_visibility/resolve.comp.glsl";
+constexpr int tile_px = 8;
+constexpr unsigned firstMaskUnit = 8;
+constexpr std::size_t maxMaskTextures = 8;
+
+bool isPoint(const AreaLight& light) {
+    switch (light.shape) {
+        case LightShape::rect:
+            return light.width_m == 0 && light.height_m == 0;
+        case LightShape::distant:
+            return light.angle_rad == 0;
+        default:
+            return light.radius_m == 0;
+    }
+}
+
+}  // namespace
+
+ExactVisibility::ExactVisibility(Device& device)
+    : device_(device.internals()),
+      candidates_(device_.shaders, {candidatesShader}),
+      light_("exact/light"),
+      masks_("exact/masks"),
+      counters_(sizeof(Counters), "exact/counters") {
+    glClearNamedBufferData(counters_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
+
+void ExactVisibility::describe(ParameterVisitor& visitor) {
+    static constexpr std::array<std::string_view, 2> weights = {"area", "irradiance"};
+    visitor.integer({.name = "samples", .help = "points of the light whose visibility is determined"}, samples_, {16, 1024});
+    visitor.choice({.name = "weight", .help = "what each part of the light counts: its area, or what it sends to the surface"},
+                   weight_, weights);
+    visitor.integer({.name = "tile_candidates",
+                     .unit = "triangles",
+                     .help = "room for each 8 x 8 pixels; those with more take longer, and give the same"},
+                    tileCapacity_, {1, 65536});
+}
+
+const std::vector<LightLattice>& ExactVisibility::latticesFor(const AreaLight& light) {
+    const bool disk = light.shape != LightShape::rect;
+    const std::pair key(isPoint(light) ? 1 : samples_, disk);
+    const auto found = lattices_.find(key);
+    if (found != lattices_.end()) return found->second;
+    return lattices_[key] = makeLightLattices(key.first, disk);
+}
+
+ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs, std::span<const LightLattice> lattices) const {
+    const AreaLight& light = inputs.light;
+    const glm::dmat4 worldFromLight = toGlm(light.worldFromLight);
+    const glm::dmat3 axes(worldFromLight);
+    const bool isDistant = light.shape == LightShape::distant, isSphere = light.shape == LightShape::sphere;
+    const double halfAngle = 0.5 * double(light.angle_rad);
+    glm::dvec3 center = isDistant ? glm::dvec3(0) : glm::dvec3(worldFromLight[3]) - soup_.originWorld();
+    double sizeX = light.radius_m, sizeY = light.radius_m;
+    if (light.shape == LightShape::rect) sizeX = 0.5 * double(light.width_m), sizeY = 0.5 * double(light.height_m);
+    glm::dvec3 low, high;
+    for (int i = 0; i < 3; ++i) {
+        if (isDistant) {
+            // The cone's directions make angles with the axis that run from one to the other.
+            const double angle = std::acos(std::clamp(axes[2][i], -1.0, 1.0));
+            low[i] = std::cos(std::min(angle + halfAngle, std::acos(-1.0))) - 1e-6;
+            high[i] = std::cos(std::max(angle - halfAngle, 0.0)) + 1e-6;
+        } else {
+            const double reach = isSphere ? light.radius_m : std::abs(axes[0][i]) * sizeX + std::abs(axes[1][i]) * sizeY;
+            const double pad = 1e-6 * (std::abs(center[i]) + reach);
+            low[i] = center[i] - reach - pad;
+            high[i] = center[i] + reach + pad;
+        }
+    }
+    if (isDistant) sizeX = std::tan(std::min(halfAngle, 1.2)), sizeY = std::cos(halfAngle);
+
+    const glm::dmat4 worldFromView = glm::inverse(toGlm(inputs.view.viewFromWorld));
+    const glm::dmat2 lattice = lattices.front().latticeFromUv, inverse = glm::inverse(lattice);
+    ExactLight result{};
+    const int shape = isDistant ? EXACT_DISTANT : isSphere ? EXACT_SPHERE : EXACT_FLAT;
+    result.center = glm::vec4(center, shape);
+    result.axisX = glm::vec4(axes[0], sizeX);
+    result.axisY = glm::vec4(axes[1], sizeY);
+    result.axisZ = glm::vec4(axes[2], light.twoSided);
+    result.boxMin = glm::vec4(low, isPoint(light));
+    result.boxMax = glm::vec4(high, weight_);
+    result.eye = glm::vec4(glm::dvec3(worldFromView[3]) - soup_.originWorld(), light.radianceTexture != 0);
+    result.lattice = glm::vec4(lattice[0], lattice[1]);
+    result.uvFromLattice = glm::vec4(inverse[0], inverse[1]);
+    result.counts = {int(lattices.size()), (inputs.view.width_px + tile_px - 1) / tile_px, tileCapacity_,
+                     int(soup_.nodeCount())};
+    for (std::size_t i = 0; i < lattices.size(); ++i) {
+        result.offsets[i] = glm::vec4(lattices[i].offset, 0, 0);
+        for (std::size_t j = 0; j < lattices[i].validRows.size(); ++j) {
+            const std::size_t row = i * EXACT_MAX_ROWS + j;
+            result.valid[row / 4][int(row % 4)] = lattices[i].validRows[j];
+        }
+    }
+    return result;
+}
+
+void ExactVisibility::allocate(int width_px, int height_px) {
+    if (errorBound_.name() == 0 || errorBound_.width_px() != width_px || errorBound_.height_px() != height_px) {
+        errorBound_ = {};
+        errorBound_ = gl::Texture(
+            {.width_px = width_px, .height_px = height_px, .format = GL_R16F, .label = "exact/error bound"});
+    }
+    tileCount_ = ((width_px + tile_px - 1) / tile_px) * ((height_px + tile_px - 1) / tile_px);
+    const std::size_t tiles_bytes = std::size_t(tileCount_) * sizeof(glm::uvec4);
+    const std::size_t lists_bytes = std::size_t(tileCount_) * std::size_t(tileCapacity_) * sizeof(std::uint32_t);
+    if (tiles_.size_bytes() < tiles_bytes) tiles_ = gl::Buffer(tiles_bytes, "exact/tiles");
+    if (lists_.size_bytes() < lists_bytes) {
+        lists_ = {};
+        lists_ = gl::Buffer(lists_bytes, "exact/candidates");
+    }
+}
+
+void ExactVisibility::bindMasks() {
+    std::vector<unsigned> textures;
+    std::vector<glm::vec4> masks;
+    for (const AlphaMask& mask : soup_.masks()) {
+        auto it = std::ranges::find(textures, mask.texture);
+        if (it == textures.end()) it = textures.insert(it, mask.texture);
+        masks.emplace_back(mask.factor, mask.cutoff, float(it - textures.begin()), 0);
+    }
+    if (textures.size() > maxMaskTextures) {
+        throw Error(Error::Kind::badArgument, "exact: casters have " + std::to_string(textures.size()) +
+                                                  " different alpha masks; it takes at most " +
+                                                  std::to_string(maxMaskTextures));
+    }
+    masks_.write(masks);
+    masks_.bind(3);
+    for (std::size_t i = 0; i < maxMaskTextures; ++i) {
+        glBindTextureUnit(firstMaskUnit + unsigned(i), i < textures.size() ? textures[i] : 0);
+    }
+}
+
+void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
+    checkInputs(inputs, out);
+    allocate(out.width_px(), out.height_px());
+    {
+        const auto pass = timers_.pass("exact/upload");
+        soup_.update(inputs.casters);
+    }
+    const std::vector<LightLattice>& lattices = latticesFor(inputs.light);
+    std::size_t rows = 0;
+    for (const LightLattice& lattice : lattices) rows = std::max(rows, lattice.validRows.size());
+    auto resolve = resolve_.find(int(rows));
+    if (resolve == resolve_.end()) {
+        gl::Program program(device_.shaders, {resolveShader}, {"ROWS " + std::to_string(rows)});
+        resolve = resolve_.emplace(int(rows), std::move(program)).first;
+    }
+    light_.write(describeLight(inputs, lattices));
+    light_.bindUniform(1);
+    glm::dmat4 sceneFromWorld(1);
+    sceneFromWorld[3] = glm::dvec4(-soup_.originWorld(), 1);
+    view_.bind(inputs.view, sceneFromWorld);
+    soup_.bind(3);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, lists_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, tiles_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, counters_.name());
+    {
+        const auto pass = timers_.pass("exact/candidates");
+        glClearNamedBufferData(counters_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+        candidates_.use();
+        glDispatchCompute(GLuint(tileCount_ + 31) / 32, 1, 1);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    }
+    {
+        const auto pass = timers_.pass("exact/resolve");
+        resolve->second.use();
+        bindMasks();
+        glBindTextureUnit(6, inputs.light.radianceTexture);
+        bindVisibility(out, 0);
+        errorBound_.bindImage(1, GL_WRITE_ONLY);
+        gl::dispatchPixels(out.width_px(), out.height_px());
+        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    }
+}
+
+void ExactVisibility::inspect(InspectionVisitor& visitor) const {
+    visitor.texture({.name = "error bound", .texture = errorBound_.name()});
+}
+
+Statistics ExactVisibility::statistics() const {
+    Counters counters;
+    counters_.read(std::as_writable_bytes(std::span(&counters, 1)));
+    Statistics statistics;
+    statistics.counts = {
+        {"triangles", double(soup_.triangleCount())},
+        {"tiles with candidates", double(counters.busyTiles)},
+        {"candidates per tile", counters.busyTiles > 0 ? double(counters.triangleSum) / counters.busyTiles : 0.0},
+        {"most candidates in a tile", double(counters.largestTile)},
+        {"tiles beyond their room", double(counters.fullTiles)},
+        {"memory", double(soup_.size_bytes() + lists_.size_bytes() + tiles_.size_bytes()) / (1 << 20), "MiB"},
+    };
+    statistics.passes = passTimes(timers_);
+    return statistics;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 450
+#extension GL_ARB_shader_group_vote : enable
+// For each receiver, the samples of the light that no candidate of its tile hides. Defines: ROWS, the rows of a lattice.
+layout(local_size_x = 8, local_size_y = 8) in;
+#ifndef ROWS
+#define ROWS 11
+#endif
+
+#include "src/techniques/common/view.glsl"
+#include "src/techniques/exact_visibility/light.glsl"
+#include "src/techniques/exact_visibility/tree.glsl"
+#include "src/techniques/exact_visibility/tiles.glsl"
+#include "src/techniques/exact_visibility/coverage.glsl"
+#include "src/techniques/exact_visibility/masks.glsl"
+
+layout(binding = 0) uniform writeonly image2D visibility;
+layout(binding = 1, r16f) uniform writeonly image2D errorBound;
+layout(binding = 6) uniform sampler2D radiance;
+
+// Receivers that run together look at the same triangle at a time.
+#ifdef GL_ARB_shader_group_vote
+bool anyOfUs(bool value) { return anyInvocationARB(value); }
+#else
+bool anyOfUs(bool value) { return value; }
+#endif
+
+// Samples that are hidden, or are none of the light's, or lie below the horizon: bit i of row j.
+uint hidden[ROWS];
+// The same before any blocker is looked at.
+uint unlit[ROWS];
+
+// A triangle's corners, from the receiver.
+struct Blocker {
+    vec3 a, b, c;           // scene axes, metres
+    vec3 uvwA, uvwB, uvwC;  // as the patch has it
+};
+
+vec3 uvwOf(Patch patch_, vec3 v) {
+    precise vec3 uvw = vec3(dot(patch_.rowU, v), dot(patch_.rowV, v), dot(patch_.rowW, v));
+    return uvw;
+}
+
+Blocker loadBlocker(uint triangle, vec3 apex, Patch patch_) {
+    Blocker blocker;
+    blocker.a = loadCorner(triangle, 0u) - apex;
+    blocker.b = loadCorner(triangle, 1u) - apex;
+    blocker.c = loadCorner(triangle, 2u) - apex;
+    blocker.uvwA = uvwOf(patch_, blocker.a);
+    blocker.uvwB = uvwOf(patch_, blocker.b);
+    blocker.uvwC = uvwOf(patch_, blocker.c);
+    return blocker;
+}
+
+// False only if it hides no sample: beside the window on one side, behind the receiver, below its horizon, behind a
+// flat light.
+bool mayHide(Blocker t, vec3 normal) {
+    vec3 u = vec3(t.uvwA.x, t.uvwB.x, t.uvwC.x);
+    vec3 v = vec3(t.uvwA.y, t.uvwB.y, t.uvwC.y);
+    vec3 w = vec3(t.uvwA.z, t.uvwB.z, t.uvwC.z);
+    vec3 height = vec3(dot(normal, t.a), dot(normal, t.b), dot(normal, t.c));
+    bool beside = all(greaterThan(u, w)) || all(greaterThan(-u, w)) || all(greaterThan(v, w)) || all(greaterThan(-v, w));
+    bool behind = all(lessThanEqual(w, vec3(0.0))) || all(lessThanEqual(height, vec3(0.0)));
+    bool beyond = shapeOfLight() == EXACT_FLAT && all(greaterThanEqual(w, vec3(rayEnd)));
+    return !(beside || behind || beyond);
+}
+
+vec3 latticeOf(vec3 uvw, vec2 offset) {
+    precise vec3 lattice = vec3(uvw.x * light.lattice.xy + uvw.y * light.lattice.zw + uvw.z * offset, uvw.z);
+    return lattice;
+}
+
+vec2 uvOf(vec2 ij, vec2 offset) {
+    vec2 p = ij - offset;
+    return p.x * light.uvFromLattice.xy + p.y * light.uvFromLattice.zw;
+}
+
+void hide(Blocker t, vec2 offset, bool counts) {
+    vec3 a = latticeOf(t.uvwA, offset), b = latticeOf(t.uvwB, offset), c = latticeOf(t.uvwC, offset);
+    for (int j = 0; j < ROWS; ++j) {
+        uint bits = hiddenInRow(a, b, c, float(j));
+        hidden[j] |= counts ? bits : 0u;
+    }
+}
+
+// The same for a triangle that has holes, or may stand at the light: each sample that it seems to hide is looked at.
+void hideSample(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint leaf, bool counts) {
+    vec3 a = latticeOf(t.uvwA, offset), b = latticeOf(t.uvwB, offset), c = latticeOf(t.uvwC, offset);
+    vec3 normal = cross(t.b - t.a, t.c - t.a);
+    float height = dot(normal, t.a);
+    bool hasHoles = (leaf & EXACT_MASKED) != 0u;
+    vec3 acrossA = cross(t.b, t.c), acrossB = cross(t.c, t.a), acrossC = cross(t.a, t.b);
+    for (int j = 0; j < ROWS; ++j) {
+        uint bits = counts ? hiddenInRow(a, b, c, float(j)) & ~hidden[j] : 0u;
+        uint stays = 0u;
+        while (anyOfUs(bits != 0u)) {
+            int i = max(findLSB(bits), 0);
+            vec2 uv = uvOf(vec2(i, j), offset);
+            vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
+            float w = height / dot(normal, direction);
+            bool blocks = w < endOfRay(seen, direction);
+            if (hasHoles) {
+                vec3 share = vec3(dot(acrossA, direction), dot(acrossB, direction), dot(acrossC, direction));
+                blocks = blocks && isSolid(leaf & ~EXACT_MASKED, share / (share.x + share.y + share.z));
+            }
+            uint bit = bits & (0u - bits);
+            stays |= blocks ? bit : 0u;
+            bits &= ~bit;
+        }
+        hidden[j] |= stays;
+    }
+}
+
+// Marks what cannot be seen even without blockers: no sample, or below the horizon.
+void beginWith(Patch patch_, vec3 normal, int lattice, vec2 offset, vec3 toSurface) {
+    // How high the sample (i, j) is above the receiver's plane, times something: linear in i and j.
+    vec3 center = patch_.center + toSurface;
+    float rise = dot(normal, patch_.across), fall = dot(normal, patch_.along);
+    float perI = rise * light.uvFromLattice.x + fall * light.uvFromLattice.y;
+    float perJ = rise * light.uvFromLattice.z + fall * light.uvFromLattice.w;
+    float base = dot(normal, center) - perI * offset.x - perJ * offset.y;
+    perI = abs(perI) < 1e-30 ? 1e-30 : perI;
+    for (int j = 0; j < ROWS; ++j) {
+        float meets = -(base + perJ * float(j)) / perI;
+        uint above = perI > 0.0 ? ~((2u << uint(clamp(floor(meets), -1.0, 30.0) + 1.0) >> 1) - 1u) : bitsBefore(meets);
+        uint row = uint(lattice * EXACT_MAX_ROWS + j);
+        unlit[j] = ~(light.valid[row >> 2][row & 3u] & above);
+        hidden[j] = unlit[j];
+    }
+}
+
+struct Sums {
+    vec3 seen, whole;
+};
+
+bool isUnevenlyWeighted() { return shapeOfLight() != EXACT_FLAT || light.boxMax.w != 0.0 || light.eye.w != 0.0; }
+
+vec3 weightOf(SeenLight seen, Patch patch_, vec3 normal, vec2 uv) {
+    vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
+    float length2 = dot(direction, direction);
+    vec3 weight = vec3(1.0);
+    if (shapeOfLight() == EXACT_FLAT) {
+        // cos(receiver) cos(light) / distance^2, up to a factor that is the same for all samples.
+        if (light.boxMax.w != 0.0) weight *= max(dot(normal, direction), 0.0) / (length2 * length2) * dot(seen.toCenter, seen.toCenter);
+        if (light.eye.w != 0.0) {
+            vec3 texel = textureLod(radiance, 0.5 * uv + 0.5, 0.0).rgb;
+            weight *= mix(vec3(0.0), texel, greaterThan(texel, vec3(0.0)));
+        }
+    } else {
+        weight *= coneWeight(seen, uv, direction);
+        if (light.boxMax.w != 0.0) weight *= max(dot(normal, direction), 0.0) * inversesqrt(length2);
+    }
+    return weight;
+}
+
+void addUp(inout Sums sums, SeenLight seen, Patch patch_, vec3 normal, vec2 offset, bool counts) {
+    bool uneven = isUnevenlyWeighted();
+    for (int j = 0; j < ROWS && uneven; ++j) {
+        for (uint bits = counts ? ~unlit[j] : 0u; bits != 0u; bits &= bits - 1u) {
+            int i = findLSB(bits);
+            vec2 uv = uvOf(vec2(i, j), offset);
+            vec3 weight = weightOf(seen, patch_, normal, uv);
+            sums.whole += weight;
+            sums.seen += (hidden[j] >> uint(i) & 1u) == 0u ? weight : vec3(0.0);
+        }
+    }
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    bool inside = all(lessThan(pixel, view.size_px.xy));
+    Receiver receiver;
+    bool receives = loadReceiver(min(pixel, view.size_px.xy - 1), receiver) && inside;
+    vec3 apex = apexOf(receiver);
+    SeenLight seen = seeLight(apex);
+    int patches = receives ? seen.patches : 0;
+
+    ivec2 tile = pixel / 8;
+    uint tileIndex = uint(tile.y * light.counts.y + tile.x);
+    uvec4 list = tileLists[tileIndex];
+    uint first = tileIndex * uint(light.counts.z), capacity = uint(light.counts.z);
+
+    Sums sums = Sums(vec3(0.0), vec3(0.0));
+    float borders = 0.0, samples = 0.0;
+    for (int part = 0; part < 6 * light.counts.x; ++part) {
+        int face = part / light.counts.x, lattice = part - face * light.counts.x;
+        bool isOn = face < patches;
+        if (!anyOfUs(isOn)) break;
+        Patch patch_ = patchOf(seen, face);
+        vec2 offset = light.offsets[lattice].xy;
+        beginWith(patch_, receiver.normalLight, lattice, offset, shapeOfLight() == EXACT_FLAT ? apex - receiver.posLight : vec3(0.0));
+
+        uint next = 0u;
+        bool isDark = !isOn;
+        while (next < list.x && anyOfUs(!isDark)) {
+            // The next candidate that matters to anyone.
+            Blocker blocker;
+            bool counts = false;
+            while (next < list.x && !anyOfUs(counts)) {
+                blocker = loadBlocker(candidates[first + next], apex, patch_);
+                counts = !isDark && mayHide(blocker, receiver.normalLight);
+                ++next;
+            }
+            hide(blocker, offset, counts);
+            uint all_ = 0xffffffffu;
+            for (int j = 0; j < ROWS; ++j) all_ &= hidden[j];
+            isDark = isDark || all_ == 0xffffffffu;
+        }
+
+        // Special candidates, then whatever did not fit into the lists.
+        uint special = 0u;
+        Walk walk = Walk(list.z, list.w);
+        Shaft shaft;
+        shaft.fromMin = apex - 1e-6 * abs(apex);
+        shaft.fromMax = apex + 1e-6 * abs(apex);
+        bool isDistant = shapeOfLight() == EXACT_DISTANT;
+        shaft.inverseLower = inverseSlope(isDistant ? light.boxMin.xyz : light.boxMin.xyz - shaft.fromMin);
+        shaft.inverseUpper = inverseSlope(isDistant ? light.boxMax.xyz : light.boxMax.xyz - shaft.fromMax);
+        shaft.end = isDistant ? 3e37 : 1.0;
+        while ((special < list.y || walk.node != EXACT_END) && anyOfUs(!isDark)) {
+            bool counts = false;
+            uint leaf = 0u;
+            if (special < list.y) {
+                leaf = candidates[first + capacity - 1u - special];
+                ++special;
+                counts = true;
+            } else {
+                TreeNode node = loadNode(walk.node);
+                bool isHit = anyOfUs(!isDark && mayBlock(shaft, node.boxMin, node.boxMax));
+                leaf = node.leaf;
+                counts = isHit && isTriangle(node);
+                walk = advance(walk, node, isHit);
+            }
+            while (counts) {
+                Blocker blocker = loadBlocker(leaf & ~EXACT_MASKED, apex, patch_);
+                bool matters = !isDark && mayHide(blocker, receiver.normalLight);
+                while (anyOfUs(matters)) {
+                    hideSample(blocker, seen, patch_, offset, leaf, matters);
+                    matters = false;
+                }
+                uint all_ = 0xffffffffu;
+                for (int j = 0; j < ROWS; ++j) all_ &= hidden[j];
+                isDark = isDark || all_ == 0xffffffffu;
+                counts = false;
+            }
+        }
+
+        addUp(sums, seen, patch_, receiver.normalLight, offset, isOn);
+        for (int j = 0; j < ROWS; ++j) {
+            uint seenRow = isOn ? ~hidden[j] : 0u, wholeRow = isOn ? ~unlit[j] : 0u;
+            if (!isUnevenlyWeighted()) {
+                sums.seen += vec3(bitCount(seenRow));
+                sums.whole += vec3(bitCount(wholeRow));
+            }
+            samples += float(bitCount(wholeRow));
+            borders += float(bitCount((seenRow ^ (seenRow >> 1)) & wholeRow & (wholeRow >> 1)));
+            if (j > 0) borders += float(bitCount((seenRow ^ ~hidden[j - 1]) & wholeRow & ~unlit[j - 1]));
+        }
+    }
+
+    if (!inside) return;
+    vec3 value = mix(vec3(0.0), sums.seen / max(sums.whole, vec3(1e-37)), greaterThan(sums.whole, vec3(0.0)));
+    if (!receives) value = vec3(1.0);
+    imageStore(visibility, pixel, vec4(clamp(value, 0.0, 1.0), 1.0));
+    imageStore(errorBound, pixel, vec4(samples > 0.0 ? min(0.5 * borders / samples, 1.0) : 0.0));
+}
