@@ -64,7 +64,7 @@ bool mayReachLight(Bounds bounds, vec3 boxMin, vec3 boxMax) {
     vec3 tileMiddle = 0.5 * (bounds.low + bounds.high) - light.center.xyz;
     vec3 tileExtent = 0.5 * (bounds.high - bounds.low);
     float reach = length(tileMiddle) + length(tileExtent);
-    if (shapeOfLight() == EXACT_FLAT) {
+    if (isFlat()) {
         float height = abs(dot(light.axisZ.xyz, middle)) - dot(abs(light.axisZ.xyz), extent);
         return height <= 2e-5 * reach;
     }

@@ -86,7 +86,10 @@ ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs, std::span<
     const glm::dmat4 worldFromView = glm::inverse(toGlm(inputs.view.viewFromWorld));
     const glm::dmat2 lattice = lattices.front().latticeFromUv, inverse = glm::inverse(lattice);
     ExactLight result{};
-    const int shape = isDistant ? EXACT_DISTANT : isSphere ? EXACT_SPHERE : EXACT_FLAT;
+    const int shape = isDistant                          ? EXACT_DISTANT
+                      : isSphere                         ? EXACT_SPHERE
+                      : light.shape == LightShape::disk ? EXACT_DISK
+                                                         : EXACT_RECT;
     result.center = glm::vec4(center, shape);
     result.axisX = glm::vec4(axes[0], sizeX);
     result.axisY = glm::vec4(axes[1], sizeY);

@@ -18,9 +18,10 @@ using glm::vec4;
 #define EXACT_MASKED 0x40000000u   // leaf: the triangle in the other bits has holes
 
 // Shapes of lights.
-#define EXACT_FLAT 0     // rect and disk: a plane
-#define EXACT_SPHERE 1
-#define EXACT_DISTANT 2
+#define EXACT_RECT 0
+#define EXACT_DISK 1
+#define EXACT_SPHERE 2
+#define EXACT_DISTANT 3
 
 #define EXACT_MAX_ROWS 24     // of a lattice, and bits in a row
 #define EXACT_MAX_LATTICES 4  // what more than 256 samples are split into

@@ -61,7 +61,7 @@ bool mayHide(Blocker t, vec3 normal) {
     vec3 height = vec3(dot(normal, t.a), dot(normal, t.b), dot(normal, t.c));
     bool beside = all(greaterThan(u, w)) || all(greaterThan(-u, w)) || all(greaterThan(v, w)) || all(greaterThan(-v, w));
     bool behind = all(lessThanEqual(w, vec3(0.0))) || all(lessThanEqual(height, vec3(0.0)));
-    bool beyond = shapeOfLight() == EXACT_FLAT && all(greaterThanEqual(w, vec3(rayEnd)));
+    bool beyond = isFlat() && all(greaterThanEqual(w, vec3(rayEnd)));
     return !(beside || behind || beyond);
 }
 
@@ -114,7 +114,7 @@ void hideSample(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint leaf,
 // Marks what cannot be seen even without blockers: no sample, or below the horizon.
 void beginWith(Patch patch_, vec3 normal, int lattice, vec2 offset, vec3 toSurface) {
     // How high the sample (i, j) is above the receiver's plane, times something: linear in i and j.
-    vec3 center = patch_.center + toSurface;
+    vec3 center = patch_.center - toSurface;
     float rise = dot(normal, patch_.across), fall = dot(normal, patch_.along);
     float perI = rise * light.uvFromLattice.x + fall * light.uvFromLattice.y;
     float perJ = rise * light.uvFromLattice.z + fall * light.uvFromLattice.w;
@@ -125,6 +125,11 @@ void beginWith(Patch patch_, vec3 normal, int lattice, vec2 offset, vec3 toSurfa
         uint above = perI > 0.0 ? ~((2u << uint(clamp(floor(meets), -1.0, 30.0) + 1.0) >> 1) - 1u) : bitsBefore(meets);
         uint row = uint(lattice * EXACT_MAX_ROWS + j);
         unlit[j] = ~(light.valid[row >> 2][row & 3u] & above);
+        for (uint bits = patch_.isCut ? ~unlit[j] : 0u; bits != 0u; bits &= bits - 1u) {
+            int i = findLSB(bits);
+            vec2 place = onLight(patch_, uvOf(vec2(i, j), offset));
+            if (dot(place, place) >= 1.0) unlit[j] |= 1u << uint(i);
+        }
         hidden[j] = unlit[j];
     }
 }
@@ -133,17 +138,17 @@ struct Sums {
     vec3 seen, whole;
 };
 
-bool isUnevenlyWeighted() { return shapeOfLight() != EXACT_FLAT || light.boxMax.w != 0.0 || light.eye.w != 0.0; }
+bool isUnevenlyWeighted() { return !isFlat() || light.boxMax.w != 0.0 || light.eye.w != 0.0; }
 
 vec3 weightOf(SeenLight seen, Patch patch_, vec3 normal, vec2 uv) {
     vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
     float length2 = dot(direction, direction);
     vec3 weight = vec3(1.0);
-    if (shapeOfLight() == EXACT_FLAT) {
+    if (isFlat()) {
         // cos(receiver) cos(light) / distance^2, up to a factor that is the same for all samples.
         if (light.boxMax.w != 0.0) weight *= max(dot(normal, direction), 0.0) / (length2 * length2) * dot(seen.toCenter, seen.toCenter);
         if (light.eye.w != 0.0) {
-            vec3 texel = textureLod(radiance, 0.5 * uv + 0.5, 0.0).rgb;
+            vec3 texel = textureLod(radiance, 0.5 * onLight(patch_, uv) + 0.5, 0.0).rgb;
             weight *= mix(vec3(0.0), texel, greaterThan(texel, vec3(0.0)));
         }
     } else {
@@ -173,6 +178,7 @@ void main() {
     bool receives = loadReceiver(min(pixel, view.size_px.xy - 1), receiver) && inside;
     vec3 apex = apexOf(receiver);
     SeenLight seen = seeLight(apex);
+    vec3 toSurface = isFlat() ? receiver.posLight - apex : vec3(0.0);
     int patches = receives ? seen.patches : 0;
 
     ivec2 tile = pixel / 8;
@@ -186,9 +192,9 @@ void main() {
         int face = part / light.counts.x, lattice = part - face * light.counts.x;
         bool isOn = face < patches;
         if (!anyOfUs(isOn)) break;
-        Patch patch_ = patchOf(seen, face);
+        Patch patch_ = patchOf(seen, face, receiver.normalLight, toSurface);
         vec2 offset = light.offsets[lattice].xy;
-        beginWith(patch_, receiver.normalLight, lattice, offset, shapeOfLight() == EXACT_FLAT ? apex - receiver.posLight : vec3(0.0));
+        beginWith(patch_, receiver.normalLight, lattice, offset, toSurface);
 
         uint next = 0u;
         bool isDark = !isOn;
