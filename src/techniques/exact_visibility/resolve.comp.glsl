@@ -75,31 +75,56 @@ vec2 uvOf(vec2 ij, vec2 offset) {
     return p.x * light.uvFromLattice.xy + p.y * light.uvFromLattice.zw;
 }
 
-void hide(Blocker t, vec2 offset, bool counts) {
+// What one triangle hides, row by row.
+uint spot[ROWS];
+
+// Written out and not as a loop: drivers that count iterations (see the README) do not unroll one of this length.
+void projectRow(vec3 a, vec3 b, vec3 c, int j) {
+    if (j < ROWS) spot[min(j, ROWS - 1)] = hiddenInRow(a, b, c, float(j));
+}
+void projectRows(vec3 a, vec3 b, vec3 c, int j) {
+    projectRow(a, b, c, j);
+    projectRow(a, b, c, j + 1);
+    projectRow(a, b, c, j + 2);
+    projectRow(a, b, c, j + 3);
+}
+void project(Blocker t, vec2 offset) {
     vec3 a = latticeOf(t.uvwA, offset), b = latticeOf(t.uvwB, offset), c = latticeOf(t.uvwC, offset);
-    for (int j = 0; j < ROWS; ++j) {
-        uint bits = hiddenInRow(a, b, c, float(j));
-        hidden[j] |= counts ? bits : 0u;
-    }
+    projectRows(a, b, c, 0);
+    projectRows(a, b, c, 4);
+    projectRows(a, b, c, 8);
+    projectRows(a, b, c, 12);
+    projectRows(a, b, c, 16);
+    projectRows(a, b, c, 20);
+}
+
+void hide(bool counts) {
+    for (int j = 0; j < ROWS; ++j) hidden[j] |= counts ? spot[j] : 0u;
+}
+
+bool isAllHidden() {
+    uint all_ = 0xffffffffu;
+    for (int j = 0; j < ROWS; ++j) all_ &= hidden[j];
+    return all_ == 0xffffffffu;
 }
 
 // The same for a triangle that has holes, or may stand at the light: each sample that it seems to hide is looked at.
-void hideSample(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint leaf, bool counts) {
-    vec3 a = latticeOf(t.uvwA, offset), b = latticeOf(t.uvwB, offset), c = latticeOf(t.uvwC, offset);
+void hideSamples(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint leaf, bool counts) {
     vec3 normal = cross(t.b - t.a, t.c - t.a);
     float height = dot(normal, t.a);
-    bool hasHoles = (leaf & EXACT_MASKED) != 0u;
     vec3 acrossA = cross(t.b, t.c), acrossB = cross(t.c, t.a), acrossC = cross(t.a, t.b);
-    for (int j = 0; j < ROWS; ++j) {
-        uint bits = counts ? hiddenInRow(a, b, c, float(j)) & ~hidden[j] : 0u;
+    // Rounding must not carry a point beyond its triangle.
+    float nearest = min(t.uvwA.z, min(t.uvwB.z, t.uvwC.z)), farthest = max(t.uvwA.z, max(t.uvwB.z, t.uvwC.z));
+    for (int j = 0; j < ROWS && anyOfUs(counts); ++j) {
+        uint bits = counts ? spot[j] & ~hidden[j] : 0u;
         uint stays = 0u;
         while (anyOfUs(bits != 0u)) {
             int i = max(findLSB(bits), 0);
             vec2 uv = uvOf(vec2(i, j), offset);
             vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
-            float w = height / dot(normal, direction);
+            float w = clamp(height / dot(normal, direction), nearest, farthest);
             bool blocks = w < endOfRay(seen, direction);
-            if (hasHoles) {
+            if ((leaf & EXACT_MASKED) != 0u) {
                 vec3 share = vec3(dot(acrossA, direction), dot(acrossB, direction), dot(acrossC, direction));
                 blocks = blocks && isSolid(leaf & ~EXACT_MASKED, share / (share.x + share.y + share.z));
             }
@@ -109,6 +134,15 @@ void hideSample(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint leaf,
         }
         hidden[j] |= stays;
     }
+}
+
+// Whether the triangle blocks whatever it covers, without a look at each sample.
+bool isPlain(Blocker t, SeenLight seen, uint leaf) {
+    if ((leaf & EXACT_MASKED) != 0u) return false;
+    if (shapeOfLight() == EXACT_DISTANT) return true;
+    if (isFlat()) return max(t.uvwA.z, max(t.uvwB.z, t.uvwC.z)) < rayEnd;
+    float farthest_m = max(dot(seen.axis, t.a), max(dot(seen.axis, t.b), dot(seen.axis, t.c)));
+    return farthest_m < rayEnd * (length(seen.toCenter) - light.axisX.w);
 }
 
 // Marks what cannot be seen even without blockers: no sample, or below the horizon.
@@ -207,10 +241,9 @@ void main() {
                 counts = !isDark && mayHide(blocker, receiver.normalLight);
                 ++next;
             }
-            hide(blocker, offset, counts);
-            uint all_ = 0xffffffffu;
-            for (int j = 0; j < ROWS; ++j) all_ &= hidden[j];
-            isDark = isDark || all_ == 0xffffffffu;
+            project(blocker, offset);
+            hide(counts);
+            isDark = isDark || isAllHidden();
         }
 
         // Special candidates, then whatever did not fit into the lists.
@@ -224,31 +257,27 @@ void main() {
         shaft.inverseUpper = inverseSlope(isDistant ? light.boxMax.xyz : light.boxMax.xyz - shaft.fromMax);
         shaft.end = isDistant ? 3e37 : 1.0;
         while ((special < list.y || walk.node != EXACT_END) && anyOfUs(!isDark)) {
+            // The next triangle that matters to anyone.
             bool counts = false;
             uint leaf = 0u;
-            if (special < list.y) {
-                leaf = candidates[first + capacity - 1u - special];
-                ++special;
-                counts = true;
-            } else {
-                TreeNode node = loadNode(walk.node);
-                bool isHit = anyOfUs(!isDark && mayBlock(shaft, node.boxMin, node.boxMax));
-                leaf = node.leaf;
-                counts = isHit && isTriangle(node);
-                walk = advance(walk, node, isHit);
+            Blocker blocker;
+            while ((special < list.y || walk.node != EXACT_END) && !anyOfUs(counts)) {
+                bool isListed = special < list.y;
+                uint node = isListed ? 0u : walk.node;
+                TreeNode visited = loadNode(node);
+                leaf = isListed ? candidates[first + capacity - 1u - special] : visited.leaf;
+                bool isHit = isListed || anyOfUs(!isDark && mayBlock(shaft, visited.boxMin, visited.boxMax));
+                bool isBlocker = isListed || (isHit && isTriangle(visited));
+                if (!isListed) walk = advance(walk, visited, isHit);
+                special += isListed ? 1u : 0u;
+                blocker = loadBlocker(isBlocker ? leaf & ~EXACT_MASKED : 0u, apex, patch_);
+                counts = isBlocker && !isDark && mayHide(blocker, receiver.normalLight);
             }
-            while (counts) {
-                Blocker blocker = loadBlocker(leaf & ~EXACT_MASKED, apex, patch_);
-                bool matters = !isDark && mayHide(blocker, receiver.normalLight);
-                while (anyOfUs(matters)) {
-                    hideSample(blocker, seen, patch_, offset, leaf, matters);
-                    matters = false;
-                }
-                uint all_ = 0xffffffffu;
-                for (int j = 0; j < ROWS; ++j) all_ &= hidden[j];
-                isDark = isDark || all_ == 0xffffffffu;
-                counts = false;
-            }
+            project(blocker, offset);
+            bool plain = isPlain(blocker, seen, leaf);
+            hide(counts && plain);
+            hideSamples(blocker, seen, patch_, offset, leaf, counts && !plain);
+            isDark = isDark || isAllHidden();
         }
 
         addUp(sums, seen, patch_, receiver.normalLight, offset, isOn);
