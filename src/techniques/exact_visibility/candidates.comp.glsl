@@ -100,7 +100,9 @@ void main() {
     uint first = tile * capacity;
     uint plain = 0u, special = 0u;
     Walk walk = Walk(bounds.count > 0 && light.counts.w > 0 ? 0u : EXACT_END, EXACT_END);
-    for (int step_ = 0; step_ < light.counts.w && walk.node != EXACT_END && plain + special < capacity; ++step_) {
+    // Whoever does not get to the end here leaves the rest to the receivers.
+    const int longestWalk = 40000;
+    for (int step_ = 0; step_ < min(light.counts.w, longestWalk) && walk.node != EXACT_END && plain + special < capacity; ++step_) {
         TreeNode node = loadNode(walk.node);
         bool isHit = mayBlockTile(shaft, bounds, node.boxMin, node.boxMax);
         if (isHit && isTriangle(node)) {

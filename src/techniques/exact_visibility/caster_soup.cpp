@@ -160,6 +160,7 @@ void CasterSoup::send() {
     changed = changed || node != nodeCount_;
     nodeCount_ = node;
     triangleCount_ = triangle;
+    maskedCount_ = masked;
     const bool lost = nodes_.reserve(2 * node) | triangles_.reserve(3 * triangle) | masked_.reserve(2 * masked);
     if (!changed && !lost) return;
     for (Entry& entry : entries_) {

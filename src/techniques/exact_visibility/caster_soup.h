@@ -50,6 +50,7 @@ class CasterSoup {
 
     std::size_t nodeCount() const { return nodeCount_; }
     std::size_t triangleCount() const { return triangleCount_; }
+    std::size_t maskedCount() const { return maskedCount_; }
     std::size_t size_bytes() const { return nodes_.size_bytes() + triangles_.size_bytes() + masked_.size_bytes(); }
     /// Masks in the order in which triangles name them.
     const std::vector<AlphaMask>& masks() const { return masks_; }
@@ -84,6 +85,7 @@ class CasterSoup {
     TexelBuffer nodes_, triangles_, masked_;
     std::size_t nodeCount_ = 0;
     std::size_t triangleCount_ = 0;
+    std::size_t maskedCount_ = 0;
 };
 
 }  // namespace penumbra

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "src/techniques/common/glm_types.h"
@@ -16,6 +17,11 @@ constexpr const char* resolveShader = "src/techniques/exact_visibility/resolve.c
 constexpr int tile_px = 8;
 constexpr unsigned firstMaskUnit = 8;
 constexpr std::size_t maxMaskTextures = 8;
+
+// llvmpipe ends all loops of a shader, without a word, once an invocation has gone through 65,535 iterations; the last
+// triangle before a pause may take some hundred more than this. Elsewhere it is watchdogs that want an end.
+constexpr int softwareRoundWork = 40000;
+constexpr int hardwareRoundWork = 1000000;
 
 bool isPoint(const AreaLight& light) {
     switch (light.shape) {
@@ -31,7 +37,8 @@ bool isPoint(const AreaLight& light) {
 }  // namespace
 
 ExactVisibility::ExactVisibility(Device& device)
-    : device_(device.internals()),
+    : roundWork_(device.internals().isSoftware ? softwareRoundWork : hardwareRoundWork),
+      device_(device.internals()),
       candidates_(device_.shaders, {candidatesShader}),
       light_("exact/light"),
       masks_("exact/masks"),
@@ -48,6 +55,10 @@ void ExactVisibility::describe(ParameterVisitor& visitor) {
                      .unit = "triangles",
                      .help = "room for each 8 x 8 pixels; those with more take longer, and give the same"},
                     tileCapacity_, {1, 65536});
+    visitor.integer({.name = "round_work",
+                     .unit = "iterations",
+                     .help = "how much is done for a pixel before it pauses, to go on in another dispatch"},
+                    roundWork_, {2000, device_.isSoftware ? softwareRoundWork : std::numeric_limits<int>::max()});
 }
 
 const std::vector<LightLattice>& ExactVisibility::latticesFor(const AreaLight& light) {
@@ -111,7 +122,20 @@ ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs, std::span<
     return result;
 }
 
-void ExactVisibility::allocate(int width_px, int height_px) {
+/// How many rounds it takes at most: every node visited, every triangle projected, every sample looked at.
+int ExactVisibility::roundsFor(int lattices, int rows, LightShape shape) const {
+    const bool isCone = shape == LightShape::sphere || shape == LightShape::distant;
+    const double parts = lattices * (isCone ? 6.0 : 1.0);
+    const double samples = EXACT_MAX_ROWS * EXACT_MAX_ROWS;
+    const double perTriangle = 6 + 3 * rows;
+    const double perSpecialTriangle = perTriangle + samples;
+    // Which triangles stand at the light is not known here; masked ones are counted as such.
+    const double work = parts * (double(soup_.nodeCount()) + double(soup_.triangleCount()) * perTriangle +
+                                 double(soup_.maskedCount()) * perSpecialTriangle + 32.0 * rows);
+    return int(std::min(1 + std::ceil(work / (roundWork_ - 1000)), 4096.0));
+}
+
+void ExactVisibility::allocate(int width_px, int height_px, int rows, int rounds) {
     if (errorBound_.name() == 0 || errorBound_.width_px() != width_px || errorBound_.height_px() != height_px) {
         errorBound_ = {};
         errorBound_ = gl::Texture(
@@ -125,6 +149,13 @@ void ExactVisibility::allocate(int width_px, int height_px) {
         lists_ = {};
         lists_ = gl::Buffer(lists_bytes, "exact/candidates");
     }
+    const std::size_t states_bytes = std::size_t(width_px) * std::size_t(height_px) * std::size_t(EXACT_STATE_WORDS + rows) * sizeof(std::uint32_t);
+    if (states_.size_bytes() < states_bytes) {
+        states_ = {};
+        states_ = gl::Buffer(states_bytes, "exact/states");
+    }
+    const std::size_t rounds_bytes = std::size_t(rounds + 1) * 3 * sizeof(std::uint32_t);
+    if (rounds_.size_bytes() < rounds_bytes) rounds_ = gl::Buffer(rounds_bytes, "exact/rounds");
 }
 
 void ExactVisibility::bindMasks() {
@@ -149,7 +180,6 @@ void ExactVisibility::bindMasks() {
 
 void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     checkInputs(inputs, out);
-    allocate(out.width_px(), out.height_px());
     {
         const auto pass = timers_.pass("exact/upload");
         soup_.update(inputs.casters);
@@ -157,6 +187,8 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
     const std::vector<LightLattice>& lattices = latticesFor(inputs.light);
     std::size_t rows = 0;
     for (const LightLattice& lattice : lattices) rows = std::max(rows, lattice.validRows.size());
+    const int rounds = roundsFor(int(lattices.size()), int(rows), inputs.light.shape);
+    allocate(out.width_px(), out.height_px(), int(rows), rounds);
     auto resolve = resolve_.find(int(rows));
     if (resolve == resolve_.end()) {
         gl::Program program(device_.shaders, {resolveShader}, {"ROWS " + std::to_string(rows)});
@@ -185,7 +217,19 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
         glBindTextureUnit(6, inputs.light.radianceTexture);
         bindVisibility(out, 0);
         errorBound_.bindImage(1, GL_WRITE_ONLY);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, states_.name());
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, rounds_.name());
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, rounds_.name());
+        glClearNamedBufferData(rounds_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+        glUniform1i(1, roundWork_);
+        glUniform1i(0, 0);
         gl::dispatchPixels(out.width_px(), out.height_px());
+        for (int round = 1; round < rounds; ++round) {
+            // Without groups where nobody asked for the round.
+            glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+            glUniform1i(0, round);
+            glDispatchComputeIndirect(GLintptr(3 * sizeof(std::uint32_t)) * round);
+        }
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
     }
 }
@@ -204,7 +248,7 @@ Statistics ExactVisibility::statistics() const {
         {"candidates per tile", counters.busyTiles > 0 ? double(counters.triangleSum) / counters.busyTiles : 0.0},
         {"most candidates in a tile", double(counters.largestTile)},
         {"tiles beyond their room", double(counters.fullTiles)},
-        {"memory", double(soup_.size_bytes() + lists_.size_bytes() + tiles_.size_bytes()) / (1 << 20), "MiB"},
+        {"memory", double(soup_.size_bytes() + lists_.size_bytes() + tiles_.size_bytes() + states_.size_bytes()) / (1 << 20), "MiB"},
     };
     statistics.passes = passTimes(timers_);
     return statistics;

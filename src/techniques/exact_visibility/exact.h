@@ -33,7 +33,8 @@ class ExactVisibility final : public Technique {
         std::uint32_t triangleSum = 0, largestTile = 0, busyTiles = 0, fullTiles = 0;
     };
 
-    void allocate(int width_px, int height_px);
+    void allocate(int width_px, int height_px, int rows, int rounds);
+    int roundsFor(int lattices, int rows, LightShape shape) const;
     const std::vector<LightLattice>& latticesFor(const AreaLight& light);
     ExactLight describeLight(const ShadowInputs& inputs, std::span<const LightLattice> lattices) const;
     void bindMasks();
@@ -41,6 +42,7 @@ class ExactVisibility final : public Technique {
     int samples_ = 64;
     int weight_ = 0;
     int tileCapacity_ = 512;
+    int roundWork_;
 
     Device::Internals& device_;
     CasterSoup soup_;
@@ -50,7 +52,7 @@ class ExactVisibility final : public Technique {
     ViewBinding view_;
     gl::ConstantBuffer<ExactLight> light_;
     gl::StorageArray<glm::vec4> masks_;
-    gl::Buffer tiles_, lists_, counters_;
+    gl::Buffer tiles_, lists_, counters_, states_, rounds_;
     gl::Texture errorBound_;
     int tileCount_ = 0;
     gl::PassTimers timers_;

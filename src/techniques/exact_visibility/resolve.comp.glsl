@@ -18,6 +18,15 @@ layout(binding = 0) uniform writeonly image2D visibility;
 layout(binding = 1, r16f) uniform writeonly image2D errorBound;
 layout(binding = 6) uniform sampler2D radiance;
 
+// Work is done in rounds, each of a bounded number of iterations: those who are not done leave what they know here and
+// ask for another round.
+layout(std430, binding = 4) buffer States { uint states[]; };
+layout(std430, binding = 5) buffer Rounds { uint roundGroups[]; };  // three numbers a round, for indirect dispatch
+layout(location = 0) uniform int round_;
+layout(location = 1) uniform int roundWork;
+#define STATE_WORDS (EXACT_STATE_WORDS + ROWS)
+int work = 0;
+
 // Receivers that run together look at the same triangle at a time.
 #ifdef GL_ARB_shader_group_vote
 bool anyOfUs(bool value) { return anyInvocationARB(value); }
@@ -118,7 +127,9 @@ void hideSamples(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint leaf
     for (int j = 0; j < ROWS && anyOfUs(counts); ++j) {
         uint bits = counts ? spot[j] & ~hidden[j] : 0u;
         uint stays = 0u;
+        ++work;
         while (anyOfUs(bits != 0u)) {
+            ++work;
             int i = max(findLSB(bits), 0);
             vec2 uv = uvOf(vec2(i, j), offset);
             vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
@@ -170,6 +181,7 @@ void beginWith(Patch patch_, vec3 normal, int lattice, vec2 offset, vec3 toSurfa
 
 struct Sums {
     vec3 seen, whole;
+    float borders, samples;  // neighbouring samples of which one is seen and one is not; samples above the horizon
 };
 
 bool isUnevenlyWeighted() { return !isFlat() || light.boxMax.w != 0.0 || light.eye.w != 0.0; }
@@ -203,11 +215,85 @@ void addUp(inout Sums sums, SeenLight seen, Patch patch_, vec3 normal, vec2 offs
             sums.seen += (hidden[j] >> uint(i) & 1u) == 0u ? weight : vec3(0.0);
         }
     }
+    for (int j = 0; j < ROWS; ++j) {
+        uint seenRow = counts ? ~hidden[j] : 0u, wholeRow = counts ? ~unlit[j] : 0u;
+        if (!uneven) {
+            sums.seen += vec3(bitCount(seenRow));
+            sums.whole += vec3(bitCount(wholeRow));
+        }
+        sums.samples += float(bitCount(wholeRow));
+        sums.borders += float(bitCount((seenRow ^ (seenRow >> 1)) & wholeRow & (wholeRow >> 1)));
+        if (j > 0) sums.borders += float(bitCount((seenRow ^ ~hidden[j - 1]) & wholeRow & ~unlit[j - 1]));
+    }
+}
+
+// A place in the work of a receiver.
+struct Progress {
+    int part;  // which lattice, of which patch
+    uint next, special;  // candidates
+    Walk walk;
+};
+
+bool isOver(Progress progress, uvec4 list) {
+    return progress.next >= list.x && progress.special >= list.y && progress.walk.node == EXACT_END;
+}
+
+void save(uint base, Progress progress, Sums sums) {
+    states[base] = uint(progress.part) + 1u;
+    states[base + 1u] = progress.next;
+    states[base + 2u] = progress.special;
+    states[base + 3u] = progress.walk.node;
+    states[base + 4u] = progress.walk.returnTo;
+    for (int i = 0; i < 3; ++i) {
+        states[base + 5u + uint(i)] = floatBitsToUint(sums.seen[i]);
+        states[base + 8u + uint(i)] = floatBitsToUint(sums.whole[i]);
+    }
+    states[base + 11u] = floatBitsToUint(sums.borders);
+    states[base + 12u] = floatBitsToUint(sums.samples);
+    for (int j = 0; j < ROWS; ++j) states[base + uint(EXACT_STATE_WORDS + j)] = hidden[j];
+}
+
+void load(uint base, out Progress progress, out Sums sums) {
+    progress.part = int(states[base]) - 1;
+    progress.next = states[base + 1u];
+    progress.special = states[base + 2u];
+    progress.walk = Walk(states[base + 3u], states[base + 4u]);
+    for (int i = 0; i < 3; ++i) {
+        sums.seen[i] = uintBitsToFloat(states[base + 5u + uint(i)]);
+        sums.whole[i] = uintBitsToFloat(states[base + 8u + uint(i)]);
+    }
+    sums.borders = uintBitsToFloat(states[base + 11u]);
+    sums.samples = uintBitsToFloat(states[base + 12u]);
+}
+
+Shaft shaftFrom(vec3 apex) {
+    bool isDistant = shapeOfLight() == EXACT_DISTANT;
+    Shaft shaft;
+    shaft.fromMin = apex - 1e-6 * abs(apex);
+    shaft.fromMax = apex + 1e-6 * abs(apex);
+    shaft.inverseLower = inverseSlope(isDistant ? light.boxMin.xyz : light.boxMin.xyz - shaft.fromMin);
+    shaft.inverseUpper = inverseSlope(isDistant ? light.boxMax.xyz : light.boxMax.xyz - shaft.fromMax);
+    shaft.end = isDistant ? 3e37 : 1.0;
+    return shaft;
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     bool inside = all(lessThan(pixel, view.size_px.xy));
+    uint base = uint(min(pixel.y, view.size_px.y - 1) * view.size_px.x + min(pixel.x, view.size_px.x - 1)) * STATE_WORDS;
+    ivec2 tile = pixel / 8;
+    uint tileIndex = uint(tile.y * light.counts.y + tile.x);
+    uvec4 list = tileLists[tileIndex];
+    uint first = tileIndex * uint(light.counts.z), capacity = uint(light.counts.z);
+
+    Progress progress = Progress(0, 0u, 0u, Walk(list.z, list.w));
+    Sums sums = Sums(vec3(0.0), vec3(0.0), 0.0, 0.0);
+    bool resumes = round_ > 0;
+    if (resumes) {
+        if (states[base] == 0u || !inside) return;
+        load(base, progress, sums);
+    }
+
     Receiver receiver;
     bool receives = loadReceiver(min(pixel, view.size_px.xy - 1), receiver) && inside;
     vec3 apex = apexOf(receiver);
@@ -215,87 +301,82 @@ void main() {
     vec3 toSurface = isFlat() ? receiver.posLight - apex : vec3(0.0);
     int patches = receives ? seen.patches : 0;
 
-    ivec2 tile = pixel / 8;
-    uint tileIndex = uint(tile.y * light.counts.y + tile.x);
-    uvec4 list = tileLists[tileIndex];
-    uint first = tileIndex * uint(light.counts.z), capacity = uint(light.counts.z);
-
-    Sums sums = Sums(vec3(0.0), vec3(0.0));
-    float borders = 0.0, samples = 0.0;
-    for (int part = 0; part < 6 * light.counts.x; ++part) {
-        int face = part / light.counts.x, lattice = part - face * light.counts.x;
+    bool isPaused = false;
+    for (; progress.part < 6 * light.counts.x; ++progress.part) {
+        int face = progress.part / light.counts.x, lattice = progress.part - face * light.counts.x;
         bool isOn = face < patches;
         if (!anyOfUs(isOn)) break;
         Patch patch_ = patchOf(seen, face, receiver.normalLight, toSurface);
         vec2 offset = light.offsets[lattice].xy;
         beginWith(patch_, receiver.normalLight, lattice, offset, toSurface);
+        for (int j = 0; j < ROWS && resumes; ++j) hidden[j] = states[base + uint(EXACT_STATE_WORDS + j)];
+        resumes = false;
 
-        uint next = 0u;
-        bool isDark = !isOn;
-        while (next < list.x && anyOfUs(!isDark)) {
+        bool isDark = !isOn || isAllHidden();
+        while (progress.next < list.x && work < roundWork && anyOfUs(!isDark)) {
             // The next candidate that matters to anyone.
             Blocker blocker;
             bool counts = false;
-            while (next < list.x && !anyOfUs(counts)) {
-                blocker = loadBlocker(candidates[first + next], apex, patch_);
+            while (progress.next < list.x && work < roundWork && !anyOfUs(counts)) {
+                blocker = loadBlocker(candidates[first + progress.next], apex, patch_);
                 counts = !isDark && mayHide(blocker, receiver.normalLight);
-                ++next;
+                ++progress.next;
+                ++work;
             }
             project(blocker, offset);
             hide(counts);
             isDark = isDark || isAllHidden();
+            work += 2 + 2 * ROWS;
         }
 
         // Special candidates, then whatever did not fit into the lists.
-        uint special = 0u;
-        Walk walk = Walk(list.z, list.w);
-        Shaft shaft;
-        shaft.fromMin = apex - 1e-6 * abs(apex);
-        shaft.fromMax = apex + 1e-6 * abs(apex);
-        bool isDistant = shapeOfLight() == EXACT_DISTANT;
-        shaft.inverseLower = inverseSlope(isDistant ? light.boxMin.xyz : light.boxMin.xyz - shaft.fromMin);
-        shaft.inverseUpper = inverseSlope(isDistant ? light.boxMax.xyz : light.boxMax.xyz - shaft.fromMax);
-        shaft.end = isDistant ? 3e37 : 1.0;
-        while ((special < list.y || walk.node != EXACT_END) && anyOfUs(!isDark)) {
+        Shaft shaft = shaftFrom(apex);
+        while (!isOver(progress, list) && work < roundWork && anyOfUs(!isDark)) {
             // The next triangle that matters to anyone.
             bool counts = false;
             uint leaf = 0u;
             Blocker blocker;
-            while ((special < list.y || walk.node != EXACT_END) && !anyOfUs(counts)) {
-                bool isListed = special < list.y;
-                uint node = isListed ? 0u : walk.node;
-                TreeNode visited = loadNode(node);
-                leaf = isListed ? candidates[first + capacity - 1u - special] : visited.leaf;
+            while (!isOver(progress, list) && work < roundWork && !anyOfUs(counts)) {
+                bool isListed = progress.special < list.y;
+                TreeNode visited = loadNode(isListed ? 0u : progress.walk.node);
+                leaf = isListed ? candidates[first + capacity - 1u - progress.special] : visited.leaf;
                 bool isHit = isListed || anyOfUs(!isDark && mayBlock(shaft, visited.boxMin, visited.boxMax));
                 bool isBlocker = isListed || (isHit && isTriangle(visited));
-                if (!isListed) walk = advance(walk, visited, isHit);
-                special += isListed ? 1u : 0u;
+                if (!isListed) progress.walk = advance(progress.walk, visited, isHit);
+                progress.special += isListed ? 1u : 0u;
                 blocker = loadBlocker(isBlocker ? leaf & ~EXACT_MASKED : 0u, apex, patch_);
                 counts = isBlocker && !isDark && mayHide(blocker, receiver.normalLight);
+                ++work;
             }
             project(blocker, offset);
             bool plain = isPlain(blocker, seen, leaf);
             hide(counts && plain);
             hideSamples(blocker, seen, patch_, offset, leaf, counts && !plain);
             isDark = isDark || isAllHidden();
+            work += 4 + 2 * ROWS;
         }
+        isPaused = !isOver(progress, list) && anyOfUs(!isDark);
+        if (isPaused) break;
 
         addUp(sums, seen, patch_, receiver.normalLight, offset, isOn);
-        for (int j = 0; j < ROWS; ++j) {
-            uint seenRow = isOn ? ~hidden[j] : 0u, wholeRow = isOn ? ~unlit[j] : 0u;
-            if (!isUnevenlyWeighted()) {
-                sums.seen += vec3(bitCount(seenRow));
-                sums.whole += vec3(bitCount(wholeRow));
-            }
-            samples += float(bitCount(wholeRow));
-            borders += float(bitCount((seenRow ^ (seenRow >> 1)) & wholeRow & (wholeRow >> 1)));
-            if (j > 0) borders += float(bitCount((seenRow ^ ~hidden[j - 1]) & wholeRow & ~unlit[j - 1]));
-        }
+        work += 32 * ROWS;
+        progress.next = 0u;
+        progress.special = 0u;
+        progress.walk = Walk(list.z, list.w);
     }
 
     if (!inside) return;
+    if (isPaused) {
+        save(base, progress, sums);
+        uvec2 groups = uvec2(view.size_px.xy + 7) / 8u;
+        atomicMax(roundGroups[3 * round_ + 3], groups.x);
+        atomicMax(roundGroups[3 * round_ + 4], groups.y);
+        atomicMax(roundGroups[3 * round_ + 5], 1u);
+        return;
+    }
+    states[base] = 0u;
     vec3 value = mix(vec3(0.0), sums.seen / max(sums.whole, vec3(1e-37)), greaterThan(sums.whole, vec3(0.0)));
     if (!receives) value = vec3(1.0);
     imageStore(visibility, pixel, vec4(clamp(value, 0.0, 1.0), 1.0));
-    imageStore(errorBound, pixel, vec4(samples > 0.0 ? min(0.5 * borders / samples, 1.0) : 0.0));
+    imageStore(errorBound, pixel, vec4(sums.samples > 0.0 ? min(0.5 * sums.borders / sums.samples, 1.0) : 0.0));
 }
