@@ -129,10 +129,11 @@ int ExactVisibility::roundsFor(int lattices, int rows, LightShape shape) const {
     const double samples = EXACT_MAX_ROWS * EXACT_MAX_ROWS;
     const double perTriangle = 6 + 3 * rows;
     const double perSpecialTriangle = perTriangle + samples;
-    // Which triangles stand at the light is not known here; masked ones are counted as such.
+    // Spheres may make any triangle special, flat lights those of casters on both sides of their planes.
+    const double special = double(shape == LightShape::distant ? soup_.maskedCount() : soup_.triangleCount());
     const double work = parts * (double(soup_.nodeCount()) + double(soup_.triangleCount()) * perTriangle +
-                                 double(soup_.maskedCount()) * perSpecialTriangle + 32.0 * rows);
-    return int(std::min(1 + std::ceil(work / (roundWork_ - 1000)), 4096.0));
+                                 special * perSpecialTriangle + 32.0 * rows);
+    return int(std::min(1 + std::ceil(work / (roundWork_ - 1000)), 1e6));
 }
 
 void ExactVisibility::allocate(int width_px, int height_px, int rows, int rounds) {
