@@ -5,9 +5,9 @@
 #include <string>
 
 #include "penumbra/technique.h"
+#include "src/techniques/exact_visibility/exact.h"
 #include "src/techniques/light_sampling/adaptive.h"
 #include "src/techniques/light_sampling/uniform.h"
-#include "src/techniques/exact_visibility/exact.h"
 #include "src/techniques/shadow_map/hard.h"
 #include "src/techniques/shadow_map/pcf.h"
 #include "src/techniques/shadow_map/pcss.h"

@@ -40,9 +40,11 @@ ExactVisibility::ExactVisibility(Device& device)
     : roundWork_(device.internals().isSoftware ? softwareRoundWork : hardwareRoundWork),
       device_(device.internals()),
       candidates_(device_.shaders, {candidatesShader}),
+      weigh_(device_.shaders, {"src/techniques/exact_visibility/weights.comp.glsl"}),
       light_("exact/light"),
       masks_("exact/masks"),
-      counters_(sizeof(Counters), "exact/counters") {
+      counters_(sizeof(Counters), "exact/counters"),
+      weights_(std::size_t(EXACT_MAX_LATTICES * EXACT_MAX_ROWS * EXACT_MAX_ROWS) * sizeof(glm::vec4), "exact/weights") {
     glClearNamedBufferData(counters_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
 
@@ -211,11 +213,18 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
         glDispatchCompute(GLuint(tileCount_ + 31) / 32, 1, 1);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     }
+    glBindTextureUnit(6, inputs.light.radianceTexture);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, weights_.name());
+    if (inputs.light.radianceTexture != 0) {
+        const auto pass = timers_.pass("exact/weights");
+        weigh_.use();
+        glDispatchCompute(EXACT_MAX_ROWS / 8, EXACT_MAX_ROWS / 8, GLuint(lattices.size()));
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    }
     {
         const auto pass = timers_.pass("exact/resolve");
         resolve->second.use();
         bindMasks();
-        glBindTextureUnit(6, inputs.light.radianceTexture);
         bindVisibility(out, 0);
         errorBound_.bindImage(1, GL_WRITE_ONLY);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, states_.name());

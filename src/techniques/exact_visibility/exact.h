@@ -46,13 +46,13 @@ class ExactVisibility final : public Technique {
 
     Device::Internals& device_;
     CasterSoup soup_;
-    gl::Program candidates_;
+    gl::Program candidates_, weigh_;
     std::map<int, gl::Program> resolve_;  // by rows of the lattice
     std::map<std::pair<int, bool>, std::vector<LightLattice>> lattices_;  // by samples, and whether in a disk
     ViewBinding view_;
     gl::ConstantBuffer<ExactLight> light_;
     gl::StorageArray<glm::vec4> masks_;
-    gl::Buffer tiles_, lists_, counters_, states_, rounds_;
+    gl::Buffer tiles_, lists_, counters_, states_, rounds_, weights_;
     gl::Texture errorBound_;
     int tileCount_ = 0;
     gl::PassTimers timers_;

@@ -13,6 +13,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/exact_visibility/tiles.glsl"
 #include "src/techniques/exact_visibility/coverage.glsl"
 #include "src/techniques/exact_visibility/masks.glsl"
+#include "src/techniques/exact_visibility/weights.glsl"
 
 layout(binding = 0) uniform writeonly image2D visibility;
 layout(binding = 1, r16f) uniform writeonly image2D errorBound;
@@ -186,7 +187,7 @@ struct Sums {
 
 bool isUnevenlyWeighted() { return !isFlat() || light.boxMax.w != 0.0 || light.eye.w != 0.0; }
 
-vec3 weightOf(SeenLight seen, Patch patch_, vec3 normal, vec2 uv) {
+vec3 weightOf(SeenLight seen, Patch patch_, vec3 normal, vec2 uv, int index) {
     vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
     float length2 = dot(direction, direction);
     vec3 weight = vec3(1.0);
@@ -194,8 +195,10 @@ vec3 weightOf(SeenLight seen, Patch patch_, vec3 normal, vec2 uv) {
         // cos(receiver) cos(light) / distance^2, up to a factor that is the same for all samples.
         if (light.boxMax.w != 0.0) weight *= max(dot(normal, direction), 0.0) / (length2 * length2) * dot(seen.toCenter, seen.toCenter);
         if (light.eye.w != 0.0) {
-            vec3 texel = textureLod(radiance, 0.5 * onLight(patch_, uv) + 0.5, 0.0).rgb;
-            weight *= mix(vec3(0.0), texel, greaterThan(texel, vec3(0.0)));
+            // Windows fitted to the horizon have samples of their own, which stand for less.
+            bool isWhole = patch_.lightAcross.x == 1.0 && patch_.lightAlong.y == 1.0;
+            vec3 point = emitted(textureLod(radiance, 0.5 * onLight(patch_, uv) + 0.5, 0.0).rgb);
+            weight *= isWhole ? weights[index].rgb : point;
         }
     } else {
         weight *= coneWeight(seen, uv, direction);
@@ -204,13 +207,13 @@ vec3 weightOf(SeenLight seen, Patch patch_, vec3 normal, vec2 uv) {
     return weight;
 }
 
-void addUp(inout Sums sums, SeenLight seen, Patch patch_, vec3 normal, vec2 offset, bool counts) {
+void addUp(inout Sums sums, SeenLight seen, Patch patch_, vec3 normal, int lattice, vec2 offset, bool counts) {
     bool uneven = isUnevenlyWeighted();
     for (int j = 0; j < ROWS && uneven; ++j) {
         for (uint bits = counts ? ~unlit[j] : 0u; bits != 0u; bits &= bits - 1u) {
             int i = findLSB(bits);
             vec2 uv = uvOf(vec2(i, j), offset);
-            vec3 weight = weightOf(seen, patch_, normal, uv);
+            vec3 weight = weightOf(seen, patch_, normal, uv, weightIndex(lattice, i, j));
             sums.whole += weight;
             sums.seen += (hidden[j] >> uint(i) & 1u) == 0u ? weight : vec3(0.0);
         }
@@ -358,7 +361,7 @@ void main() {
         isPaused = !isOver(progress, list) && anyOfUs(!isDark);
         if (isPaused) break;
 
-        addUp(sums, seen, patch_, receiver.normalLight, offset, isOn);
+        addUp(sums, seen, patch_, receiver.normalLight, lattice, offset, isOn);
         work += 32 * ROWS;
         progress.next = 0u;
         progress.special = 0u;
