@@ -76,7 +76,8 @@ TEST_P(Contract, EverythingIsLitWithoutCasters) {
         for (std::size_t i = 0; i < result.visibility.values.size(); ++i) {
             if (ofCenter.visibility.values[i] == 1) {
                 ASSERT_NEAR(result.visibility.values[i], 1, 1e-6) << "value " << i;
-            } else if (ofLight.visibility.values[i] == 0) {
+            } else if (ofLight.visibility.values[i] == 0 && result.reach.values[i] == 0) {
+                // Two rays may both miss what little of the light is above: that nothing arrives must be known, too.
                 ASSERT_NEAR(result.visibility.values[i], 0, 1e-6) << "value " << i;
             }
         }

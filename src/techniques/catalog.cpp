@@ -5,6 +5,7 @@
 #include <string>
 
 #include "penumbra/technique.h"
+#include "src/techniques/exact_visibility/exact.h"
 #include "src/techniques/light_sampling/adaptive.h"
 #include "src/techniques/light_sampling/uniform.h"
 #include "src/techniques/shadow_map/hard.h"
@@ -47,6 +48,7 @@ constexpr std::array entries = {
     Entry{{"soft-volumes", "layers counted from the edges of penumbra wedges (after Assarsson et al. 2003)",
            0.01f},
           make<SoftVolumes>},
+    Entry{{"exact", "samples of the light, each decided exactly, from triangles without maps", 0.02f}, make<ExactVisibility>},
 };
 
 constexpr auto infos = [] {

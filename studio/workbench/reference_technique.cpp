@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
 
 #include "studio/frame/conversions.h"
@@ -114,6 +115,14 @@ std::optional<RadianceTexture> readRadianceTexture(GLuint texture) {
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureImage(texture, 0, GL_RGB, GL_FLOAT, GLsizei(rows.values.size() * sizeof(float)),
                       rows.values.data());
+    // Read back, texels of sRGB formats stay encoded; shaders that sample them get linear light.
+    GLint encoding = 0;
+    glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &encoding);
+    if (encoding == GL_SRGB8_ALPHA8 || encoding == GL_SRGB8) {
+        for (float& value : rows.values) {
+            value = value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+        }
+    }
     return RadianceTexture{std::move(rows)};
 }
 

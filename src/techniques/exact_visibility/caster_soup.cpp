@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/techniques/exact_visibility/caster_soup.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "src/techniques/common/glm_types.h"
+#include "src/techniques/exact_visibility/exact_io.h"
+
+namespace penumbra {
+namespace {
+
+constexpr std::size_t texel_bytes = sizeof(glm::uvec4);
+
+template <typename T>
+bool sameBits(const std::vector<T>& a, std::span<const T> b) {
+    return a.size() == b.size() && (b.empty() || std::memcmp(a.data(), b.data(), b.size_bytes()) == 0);
+}
+
+bool sameMatrix(const Mat4& a, const Mat4& b) { return std::memcmp(&a, &b, sizeof(Mat4)) == 0; }
+
+glm::uvec4 texel(const glm::vec3& v, std::uint32_t w) {
+    return {std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y), std::bit_cast<std::uint32_t>(v.z), w};
+}
+
+/// The middle of the casters, rounded to a multiple of a power of two that is larger than they are: it stays where it
+/// is while they move about, and depends on nothing but the inputs.
+glm::dvec3 chooseOrigin(std::span<const Caster> casters) {
+    glm::dvec3 low(1e300), high(-1e300);
+    for (const Caster& caster : casters) {
+        const Box& box = caster.mesh->bounds();
+        if (box.min.x > box.max.x) continue;
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec4 corner(i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
+                                    i & 4 ? box.max.z : box.min.z, 1);
+            const glm::dvec3 posWorld = toGlm(caster.worldFromMesh) * corner;
+            low = glm::min(low, posWorld);
+            high = glm::max(high, posWorld);
+        }
+    }
+    const glm::dvec3 extent = high - low;
+    const double largest = std::max({extent.x, extent.y, extent.z});
+    if (!(largest > 0) || !std::isfinite(largest)) return glm::dvec3(0);
+    const double grid = std::exp2(std::ceil(std::log2(largest)));
+    return glm::round(0.5 * (low + high) / grid) * grid;
+}
+
+}  // namespace
+
+bool TexelBuffer::reserve(std::size_t texels) {
+    if (view_.name() != 0 && texels * texel_bytes <= buffer_.size_bytes()) return false;
+    GLint64 limit = 0;
+    glGetInteger64v(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
+    if (GLint64(texels) > limit) {
+        throw Error(Error::Kind::badArgument, std::string(label_) + ": the casters have more triangles than fit into a " +
+                                                  "buffer texture of this device (" + std::to_string(limit) + " texels)");
+    }
+    // Freed first, so that the two need not fit together.
+    view_ = {};
+    buffer_ = {};
+    buffer_ = gl::Buffer(std::max<std::size_t>(texels, 1) * texel_bytes, label_);
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+    view_ = gl::Handle<gl::deleteTexture>(name);
+    glTextureBuffer(name, GL_RGBA32UI, buffer_.name());
+    return true;
+}
+
+void TexelBuffer::write(std::span<const glm::uvec4> texels, std::size_t first) {
+    if (!texels.empty()) buffer_.write(std::as_bytes(texels), first * texel_bytes);
+}
+
+CasterSoup::CasterSoup()
+    : nodes_("exact/nodes"), triangles_("exact/triangles"), masked_("exact/texture coordinates") {}
+
+void CasterSoup::Entry::take(const Caster& caster) {
+    const bool sameTriangles = sameBits(indices, caster.mesh->indices());
+    if (!sameTriangles) {
+        const auto span = caster.mesh->indices();
+        indices.assign(span.begin(), span.end());
+    }
+    const auto newPositions = caster.mesh->positions();
+    positions.assign(newPositions.begin(), newPositions.end());
+    const auto newUvs = caster.mesh->uvs();
+    uvs.assign(newUvs.begin(), newUvs.end());
+    worldFromMesh = caster.worldFromMesh;
+    if (!sameTriangles || shape.nodes.empty()) {
+        std::vector<TreeBox> meshBoxes(indices.size() / 3);
+        for (std::size_t i = 0; i < indices.size(); ++i) meshBoxes[i / 3].add(toGlm(positions[indices[i]]));
+        shape = buildTree(meshBoxes);
+    }
+}
+
+void CasterSoup::Entry::place(const glm::dvec3& origin) {
+    glm::dmat4 sceneFromMesh = toGlm(worldFromMesh);
+    sceneFromMesh[3] -= glm::dvec4(origin, 0);
+    std::vector<glm::vec3> posScene(positions.size());
+    std::ranges::transform(positions, posScene.begin(), [&](const Vec3& posMesh) {
+        return glm::vec3(sceneFromMesh * glm::dvec4(toGlm(posMesh), 1));
+    });
+    corners.resize(indices.size());
+    std::vector<TreeBox> leaves(indices.size() / 3);
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        corners[i] = posScene[indices[i]];
+        leaves[i / 3].add(corners[i]);
+    }
+    boxes = refitTree(shape, leaves);
+}
+
+bool CasterSoup::Entry::isStale(const Caster& caster) const {
+    return !sameBits(indices, caster.mesh->indices()) || !sameBits(positions, caster.mesh->positions()) ||
+           !sameBits(uvs, caster.mesh->uvs()) || !sameMatrix(worldFromMesh, caster.worldFromMesh);
+}
+
+void CasterSoup::update(std::span<const Caster> casters) {
+    const glm::dvec3 origin = chooseOrigin(casters);
+    const bool moved = origin != originWorld_;
+    originWorld_ = origin;
+
+    // What is the same as before stays; masks are named by their place in the list of masks.
+    masks_.clear();
+    std::size_t count = 0;
+    for (const Caster& caster : casters) {
+        if (!caster.casts || caster.mesh->indices().empty()) continue;
+        int mask = -1;
+        if (caster.alphaMask.texture != 0) {
+            mask = int(masks_.size());
+            masks_.push_back(caster.alphaMask);
+        }
+        if (count == entries_.size()) entries_.emplace_back();
+        Entry& entry = entries_[count++];
+        const bool stale = entry.isStale(caster);
+        if (stale) entry.take(caster);
+        if (stale || moved) entry.place(origin);
+        entry.isSent = entry.isSent && !stale && !moved && entry.mask == mask;
+        entry.mask = mask;
+    }
+    entries_.resize(count);
+    send();
+}
+
+void CasterSoup::send() {
+    // Places: the top tree's nodes first, then each caster's.
+    std::size_t node = entries_.empty() ? 0 : 2 * entries_.size() - 1, triangle = 0, masked = 0;
+    bool changed = false;
+    for (Entry& entry : entries_) {
+        const std::size_t triangles = entry.corners.size() / 3;
+        entry.isSent = entry.isSent && entry.firstNode == node && entry.firstTriangle == triangle && entry.firstMasked == masked;
+        changed = changed || !entry.isSent;
+        entry.firstNode = node;
+        entry.firstTriangle = triangle;
+        entry.firstMasked = masked;
+        node += entry.shape.nodes.size();
+        triangle += triangles;
+        if (entry.mask >= 0) masked += triangles;
+    }
+    changed = changed || node != nodeCount_;
+    nodeCount_ = node;
+    triangleCount_ = triangle;
+    maskedCount_ = masked;
+    const bool lost = nodes_.reserve(2 * node) | triangles_.reserve(3 * triangle) | masked_.reserve(2 * masked);
+    if (!changed && !lost) return;
+    for (Entry& entry : entries_) {
+        if (lost || !entry.isSent) send(entry);
+    }
+    sendTop();
+}
+
+void CasterSoup::send(Entry& entry) {
+    std::vector<glm::uvec4> texels;
+    texels.reserve(2 * entry.boxes.size());
+    for (std::size_t i = 0; i < entry.boxes.size(); ++i) {
+        const TreeShape::Node& node = entry.shape.nodes[i];
+        const bool last = node.skip == entry.boxes.size();
+        texels.push_back(texel(entry.boxes[i].min, last ? EXACT_END : std::uint32_t(entry.firstNode) + node.skip));
+        const std::uint32_t leaf = std::uint32_t(entry.firstTriangle) + node.leaf;
+        texels.push_back(texel(entry.boxes[i].max, node.leaf == TreeShape::inner ? EXACT_INNER
+                                                   : entry.mask >= 0             ? leaf | EXACT_MASKED
+                                                                                 : leaf));
+    }
+    nodes_.write(texels, 2 * entry.firstNode);
+
+    texels.clear();
+    for (std::size_t i = 0; i < entry.corners.size(); ++i) {
+        texels.push_back(texel(entry.corners[i], std::uint32_t(entry.firstMasked + i / 3)));
+    }
+    triangles_.write(texels, 3 * entry.firstTriangle);
+
+    if (entry.mask >= 0) {
+        texels.clear();
+        const auto uv = [&](std::size_t corner) {
+            const std::uint32_t vertex = entry.indices[corner];
+            return vertex < entry.uvs.size() ? glm::vec2(entry.uvs[vertex].x, entry.uvs[vertex].y) : glm::vec2(0);
+        };
+        for (std::size_t i = 0; i < entry.indices.size(); i += 3) {
+            texels.push_back(texel({uv(i), uv(i + 1).x}, std::bit_cast<std::uint32_t>(uv(i + 1).y)));
+            texels.push_back(texel({uv(i + 2), 0}, std::uint32_t(entry.mask)));
+        }
+        masked_.write(texels, 2 * entry.firstMasked);
+    }
+    entry.isSent = true;
+}
+
+void CasterSoup::sendTop() {
+    std::vector<TreeBox> roots;
+    for (const Entry& entry : entries_) roots.push_back(entry.boxes.front());
+    const TreeShape shape = buildTree(roots);
+    const std::vector<TreeBox> boxes = refitTree(shape, roots);
+    std::vector<glm::uvec4> texels;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const TreeShape::Node& node = shape.nodes[i];
+        texels.push_back(texel(boxes[i].min, node.skip == boxes.size() ? EXACT_END : node.skip));
+        texels.push_back(texel(boxes[i].max, node.leaf == TreeShape::inner
+                                                 ? EXACT_INNER
+                                                 : EXACT_SUBTREE | std::uint32_t(entries_[node.leaf].firstNode)));
+    }
+    nodes_.write(texels, 0);
+}
+
+void CasterSoup::bind(unsigned first) const {
+    nodes_.bind(first);
+    triangles_.bind(first + 1);
+    masked_.bind(first + 2);
+}
+
+}  // namespace penumbra

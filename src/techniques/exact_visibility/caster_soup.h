@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// All triangles that cast, in one place on the device, and a tree over them.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "penumbra/technique.h"
+#include "src/gl/buffer.h"
+#include "src/gl/texture.h"
+#include "src/techniques/exact_visibility/triangle_tree.h"
+
+namespace penumbra {
+
+/// A buffer that shaders read with texelFetch, four words at a time; floats travel as their bits, among integers. Its size
+/// only grows.
+class TexelBuffer {
+  public:
+    explicit TexelBuffer(std::string_view label) : label_(label) {}
+    /// Makes room for so many; what was there is lost where it has to grow, which the result says.
+    bool reserve(std::size_t texels);
+    void write(std::span<const glm::uvec4> texels, std::size_t first);
+    void bind(unsigned unit) const { glBindTextureUnit(unit, view_.name()); }
+    std::size_t size_bytes() const { return buffer_.size_bytes(); }
+
+  private:
+    std::string_view label_;
+    gl::Buffer buffer_;
+    gl::Handle<gl::deleteTexture> view_;
+};
+
+/// Keeps, from frame to frame, what has not changed: the shape of each mesh's tree while its triangles are the same,
+/// boxes and corners while it does not move. Where casters moved or were deformed, only theirs are computed and sent
+/// again; a small tree over the casters is rebuilt.
+class CasterSoup {
+  public:
+    CasterSoup();
+
+    /// Takes the casters in. Throws Error::Kind::badArgument where they have more triangles than the device can
+    /// address.
+    void update(std::span<const Caster> casters);
+
+    /// World space moved, not turned, so that coordinates are small: how shaders see everything.
+    const glm::dvec3& originWorld() const { return originWorld_; }
+
+    /// Nodes, triangles and masked triangles' texture coordinates, to units `first`, `first + 1`, `first + 2`.
+    void bind(unsigned first) const;
+
+    std::size_t nodeCount() const { return nodeCount_; }
+    std::size_t triangleCount() const { return triangleCount_; }
+    std::size_t maskedCount() const { return maskedCount_; }
+    std::size_t size_bytes() const { return nodes_.size_bytes() + triangles_.size_bytes() + masked_.size_bytes(); }
+    /// Masks in the order in which triangles name them.
+    const std::vector<AlphaMask>& masks() const { return masks_; }
+
+  private:
+    /// A caster, with copies of what it is made of to see whether it is still the same.
+    struct Entry {
+        std::vector<std::uint32_t> indices;
+        std::vector<Vec3> positions;
+        std::vector<Vec2> uvs;
+        Mat4 worldFromMesh;
+        int mask = -1;  ///< which of masks_, or none
+
+        TreeShape shape;
+        std::vector<TreeBox> boxes;      ///< one a node
+        std::vector<glm::vec3> corners;  ///< three a triangle
+        bool isSent = false;
+        std::size_t firstNode = 0, firstTriangle = 0, firstMasked = 0;
+
+        bool isStale(const Caster& caster) const;
+        void take(const Caster& caster);
+        void place(const glm::dvec3& origin);
+    };
+
+    void send();
+    void send(Entry& entry);
+    void sendTop();
+
+    std::vector<Entry> entries_;
+    std::vector<AlphaMask> masks_;
+    glm::dvec3 originWorld_{0};
+    TexelBuffer nodes_, triangles_, masked_;
+    std::size_t nodeCount_ = 0;
+    std::size_t triangleCount_ = 0;
+    std::size_t maskedCount_ = 0;
+};
+
+}  // namespace penumbra

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Visibility of the samples of an area light, exactly and without noise, from any triangles: each triangle that may be
+// in the way is projected from each receiver onto the light, row by row of a tilted lattice of samples. See README.md.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "penumbra/technique.h"
+#include "src/device_internals.h"
+#include "src/gl/pass_timers.h"
+#include "src/gl/program.h"
+#include "src/gl/texture.h"
+#include "src/techniques/common/view_constants.h"
+#include "src/techniques/exact_visibility/caster_soup.h"
+#include "src/techniques/exact_visibility/exact_io.h"
+#include "src/techniques/exact_visibility/light_lattice.h"
+
+namespace penumbra {
+
+class ExactVisibility final : public Technique {
+  public:
+    explicit ExactVisibility(Device& device);
+
+    void describe(ParameterVisitor& visitor) override;
+    void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
+    void inspect(InspectionVisitor& visitor) const override;
+    Statistics statistics() const override;
+
+  private:
+    struct Counters {
+        std::uint32_t triangleSum = 0, largestTile = 0, busyTiles = 0, fullTiles = 0;
+    };
+
+    void allocate(int width_px, int height_px, int rows, int rounds);
+    int roundsFor(int lattices, int rows, LightShape shape) const;
+    const std::vector<LightLattice>& latticesFor(const AreaLight& light);
+    ExactLight describeLight(const ShadowInputs& inputs, std::span<const LightLattice> lattices) const;
+    void bindMasks();
+
+    int samples_ = 64;
+    int weight_ = 0;
+    int tileCapacity_ = 512;
+    int roundWork_;
+
+    Device::Internals& device_;
+    CasterSoup soup_;
+    gl::Program candidates_, weigh_;
+    std::map<int, gl::Program> resolve_;  // by rows of the lattice
+    std::map<std::pair<int, bool>, std::vector<LightLattice>> lattices_;  // by samples, and whether in a disk
+    ViewBinding view_;
+    gl::ConstantBuffer<ExactLight> light_;
+    gl::StorageArray<glm::vec4> masks_;
+    gl::Buffer tiles_, lists_, counters_, states_, rounds_, weights_;
+    gl::Texture errorBound_;
+    int tileCount_ = 0;
+    gl::PassTimers timers_;
+};
+
+}  // namespace penumbra

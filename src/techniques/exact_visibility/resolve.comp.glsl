@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 450
+#extension GL_ARB_shader_group_vote : enable
+// For each receiver, the samples of the light that no candidate of its tile hides. Defines: ROWS, the rows of a lattice.
+layout(local_size_x = 8, local_size_y = 8) in;
+#ifndef ROWS
+#define ROWS 11
+#endif
+
+#include "src/techniques/common/view.glsl"
+#include "src/techniques/exact_visibility/light.glsl"
+#include "src/techniques/exact_visibility/tree.glsl"
+#include "src/techniques/exact_visibility/tiles.glsl"
+#include "src/techniques/exact_visibility/coverage.glsl"
+#include "src/techniques/exact_visibility/masks.glsl"
+#include "src/techniques/exact_visibility/weights.glsl"
+
+layout(binding = 0) uniform writeonly image2D visibility;
+layout(binding = 1, r16f) uniform writeonly image2D errorBound;
+layout(binding = 6) uniform sampler2D radiance;
+
+// Work is done in rounds, each of a bounded number of iterations: those who are not done leave what they know here and
+// ask for another round.
+layout(std430, binding = 4) buffer States { uint states[]; };
+layout(std430, binding = 5) buffer Rounds { uint roundGroups[]; };  // three numbers a round, for indirect dispatch
+layout(location = 0) uniform int round_;
+layout(location = 1) uniform int roundWork;
+#define STATE_WORDS (EXACT_STATE_WORDS + ROWS)
+int work = 0;
+
+// Receivers that run together look at the same triangle at a time.
+#ifdef GL_ARB_shader_group_vote
+bool anyOfUs(bool value) { return anyInvocationARB(value); }
+#else
+bool anyOfUs(bool value) { return value; }
+#endif
+
+// Samples that are hidden, or are none of the light's, or lie below the horizon: bit i of row j.
+uint hidden[ROWS];
+// The same before any blocker is looked at.
+uint unlit[ROWS];
+
+// A triangle's corners, from the receiver.
+struct Blocker {
+    vec3 a, b, c;           // scene axes, metres
+    vec3 uvwA, uvwB, uvwC;  // as the patch has it
+};
+
+vec3 uvwOf(Patch patch_, vec3 v) {
+    precise vec3 uvw = vec3(dot(patch_.rowU, v), dot(patch_.rowV, v), dot(patch_.rowW, v));
+    return uvw;
+}
+
+Blocker loadBlocker(uint triangle, vec3 apex, Patch patch_) {
+    Blocker blocker;
+    blocker.a = loadCorner(triangle, 0u) - apex;
+    blocker.b = loadCorner(triangle, 1u) - apex;
+    blocker.c = loadCorner(triangle, 2u) - apex;
+    blocker.uvwA = uvwOf(patch_, blocker.a);
+    blocker.uvwB = uvwOf(patch_, blocker.b);
+    blocker.uvwC = uvwOf(patch_, blocker.c);
+    return blocker;
+}
+
+// False only if it hides no sample: beside the window on one side, behind the receiver, below its horizon, behind a
+// flat light.
+bool mayHide(Blocker t, vec3 normal) {
+    vec3 u = vec3(t.uvwA.x, t.uvwB.x, t.uvwC.x);
+    vec3 v = vec3(t.uvwA.y, t.uvwB.y, t.uvwC.y);
+    vec3 w = vec3(t.uvwA.z, t.uvwB.z, t.uvwC.z);
+    vec3 height = vec3(dot(normal, t.a), dot(normal, t.b), dot(normal, t.c));
+    bool beside = all(greaterThan(u, w)) || all(greaterThan(-u, w)) || all(greaterThan(v, w)) || all(greaterThan(-v, w));
+    bool behind = all(lessThanEqual(w, vec3(0.0))) || all(lessThanEqual(height, vec3(0.0)));
+    bool beyond = isFlat() && all(greaterThanEqual(w, vec3(rayEnd)));
+    return !(beside || behind || beyond);
+}
+
+vec3 latticeOf(vec3 uvw, vec2 offset) {
+    precise vec3 lattice = vec3(uvw.x * light.lattice.xy + uvw.y * light.lattice.zw + uvw.z * offset, uvw.z);
+    return lattice;
+}
+
+vec2 uvOf(vec2 ij, vec2 offset) {
+    vec2 p = ij - offset;
+    return p.x * light.uvFromLattice.xy + p.y * light.uvFromLattice.zw;
+}
+
+// What one triangle hides, row by row.
+uint spot[ROWS];
+
+// Written out and not as a loop: drivers that count iterations (see the README) do not unroll one of this length.
+void projectRow(vec3 a, vec3 b, vec3 c, int j) {
+    if (j < ROWS) spot[min(j, ROWS - 1)] = hiddenInRow(a, b, c, float(j));
+}
+void projectRows(vec3 a, vec3 b, vec3 c, int j) {
+    projectRow(a, b, c, j);
+    projectRow(a, b, c, j + 1);
+    projectRow(a, b, c, j + 2);
+    projectRow(a, b, c, j + 3);
+}
+void project(Blocker t, vec2 offset) {
+    vec3 a = latticeOf(t.uvwA, offset), b = latticeOf(t.uvwB, offset), c = latticeOf(t.uvwC, offset);
+    projectRows(a, b, c, 0);
+    projectRows(a, b, c, 4);
+    projectRows(a, b, c, 8);
+    projectRows(a, b, c, 12);
+    projectRows(a, b, c, 16);
+    projectRows(a, b, c, 20);
+}
+
+void hide(bool counts) {
+    for (int j = 0; j < ROWS; ++j) hidden[j] |= counts ? spot[j] : 0u;
+}
+
+bool isAllHidden() {
+    uint all_ = 0xffffffffu;
+    for (int j = 0; j < ROWS; ++j) all_ &= hidden[j];
+    return all_ == 0xffffffffu;
+}
+
+// The same for a triangle that has holes, or may stand at the light: each sample that it seems to hide is looked at.
+void hideSamples(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint leaf, bool counts) {
+    vec3 normal = cross(t.b - t.a, t.c - t.a);
+    float height = dot(normal, t.a);
+    vec3 acrossA = cross(t.b, t.c), acrossB = cross(t.c, t.a), acrossC = cross(t.a, t.b);
+    // Rounding must not carry a point beyond its triangle.
+    float nearest = min(t.uvwA.z, min(t.uvwB.z, t.uvwC.z)), farthest = max(t.uvwA.z, max(t.uvwB.z, t.uvwC.z));
+    for (int j = 0; j < ROWS && anyOfUs(counts); ++j) {
+        uint bits = counts ? spot[j] & ~hidden[j] : 0u;
+        uint stays = 0u;
+        ++work;
+        while (anyOfUs(bits != 0u)) {
+            ++work;
+            int i = max(findLSB(bits), 0);
+            vec2 uv = uvOf(vec2(i, j), offset);
+            vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
+            float w = clamp(height / dot(normal, direction), nearest, farthest);
+            bool blocks = w < endOfRay(seen, direction);
+            if ((leaf & EXACT_MASKED) != 0u) {
+                vec3 share = vec3(dot(acrossA, direction), dot(acrossB, direction), dot(acrossC, direction));
+                blocks = blocks && isSolid(leaf & ~EXACT_MASKED, share / (share.x + share.y + share.z));
+            }
+            uint bit = bits & (0u - bits);
+            stays |= blocks ? bit : 0u;
+            bits &= ~bit;
+        }
+        hidden[j] |= stays;
+    }
+}
+
+// Whether the triangle blocks whatever it covers, without a look at each sample.
+bool isPlain(Blocker t, SeenLight seen, uint leaf) {
+    if ((leaf & EXACT_MASKED) != 0u) return false;
+    if (shapeOfLight() == EXACT_DISTANT) return true;
+    if (isFlat()) return max(t.uvwA.z, max(t.uvwB.z, t.uvwC.z)) < rayEnd;
+    float farthest_m = max(dot(seen.axis, t.a), max(dot(seen.axis, t.b), dot(seen.axis, t.c)));
+    return farthest_m < rayEnd * (length(seen.toCenter) - light.axisX.w);
+}
+
+// Marks what cannot be seen even without blockers: no sample, or below the horizon.
+void beginWith(Patch patch_, vec3 normal, int lattice, vec2 offset, vec3 toSurface) {
+    // How high the sample (i, j) is above the receiver's plane, times something: linear in i and j.
+    vec3 center = patch_.center - toSurface;
+    float rise = dot(normal, patch_.across), fall = dot(normal, patch_.along);
+    float perI = rise * light.uvFromLattice.x + fall * light.uvFromLattice.y;
+    float perJ = rise * light.uvFromLattice.z + fall * light.uvFromLattice.w;
+    float base = dot(normal, center) - perI * offset.x - perJ * offset.y;
+    perI = abs(perI) < 1e-30 ? 1e-30 : perI;
+    for (int j = 0; j < ROWS; ++j) {
+        float meets = -(base + perJ * float(j)) / perI;
+        uint above = perI > 0.0 ? ~((2u << uint(clamp(floor(meets), -1.0, 30.0) + 1.0) >> 1) - 1u) : bitsBefore(meets);
+        uint row = uint(lattice * EXACT_MAX_ROWS + j);
+        unlit[j] = ~(light.valid[row >> 2][row & 3u] & above);
+        for (uint bits = patch_.isCut ? ~unlit[j] : 0u; bits != 0u; bits &= bits - 1u) {
+            int i = findLSB(bits);
+            vec2 place = onLight(patch_, uvOf(vec2(i, j), offset));
+            if (dot(place, place) >= 1.0) unlit[j] |= 1u << uint(i);
+        }
+        hidden[j] = unlit[j];
+    }
+}
+
+struct Sums {
+    vec3 seen, whole;
+    float borders, samples;  // neighbouring samples of which one is seen and one is not; samples above the horizon
+};
+
+bool isUnevenlyWeighted() { return !isFlat() || light.boxMax.w != 0.0 || light.eye.w != 0.0; }
+
+vec3 weightOf(SeenLight seen, Patch patch_, vec3 normal, vec2 uv, int index) {
+    vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
+    float length2 = dot(direction, direction);
+    vec3 weight = vec3(1.0);
+    if (isFlat()) {
+        // cos(receiver) cos(light) / distance^2, up to a factor that is the same for all samples.
+        if (light.boxMax.w != 0.0) weight *= max(dot(normal, direction), 0.0) / (length2 * length2) * dot(seen.toCenter, seen.toCenter);
+        if (light.eye.w != 0.0) {
+            // Windows fitted to the horizon have samples of their own, which stand for less.
+            bool isWhole = patch_.lightAcross.x == 1.0 && patch_.lightAlong.y == 1.0;
+            vec3 point = emitted(textureLod(radiance, 0.5 * onLight(patch_, uv) + 0.5, 0.0).rgb);
+            weight *= isWhole ? weights[index].rgb : point;
+        }
+    } else {
+        weight *= coneWeight(seen, uv, direction);
+        if (light.boxMax.w != 0.0) weight *= max(dot(normal, direction), 0.0) * inversesqrt(length2);
+    }
+    return weight;
+}
+
+void addUp(inout Sums sums, SeenLight seen, Patch patch_, vec3 normal, int lattice, vec2 offset, bool counts) {
+    bool uneven = isUnevenlyWeighted();
+    for (int j = 0; j < ROWS && uneven; ++j) {
+        for (uint bits = counts ? ~unlit[j] : 0u; bits != 0u; bits &= bits - 1u) {
+            int i = findLSB(bits);
+            vec2 uv = uvOf(vec2(i, j), offset);
+            vec3 weight = weightOf(seen, patch_, normal, uv, weightIndex(lattice, i, j));
+            sums.whole += weight;
+            sums.seen += (hidden[j] >> uint(i) & 1u) == 0u ? weight : vec3(0.0);
+        }
+    }
+    for (int j = 0; j < ROWS; ++j) {
+        uint seenRow = counts ? ~hidden[j] : 0u, wholeRow = counts ? ~unlit[j] : 0u;
+        if (!uneven) {
+            sums.seen += vec3(bitCount(seenRow));
+            sums.whole += vec3(bitCount(wholeRow));
+        }
+        sums.samples += float(bitCount(wholeRow));
+        sums.borders += float(bitCount((seenRow ^ (seenRow >> 1)) & wholeRow & (wholeRow >> 1)));
+        if (j > 0) sums.borders += float(bitCount((seenRow ^ ~hidden[j - 1]) & wholeRow & ~unlit[j - 1]));
+    }
+}
+
+// A place in the work of a receiver.
+struct Progress {
+    int part;  // which lattice, of which patch
+    uint next, special;  // candidates
+    Walk walk;
+};
+
+bool isOver(Progress progress, uvec4 list) {
+    return progress.next >= list.x && progress.special >= list.y && progress.walk.node == EXACT_END;
+}
+
+void save(uint base, Progress progress, Sums sums) {
+    states[base] = uint(progress.part) + 1u;
+    states[base + 1u] = progress.next;
+    states[base + 2u] = progress.special;
+    states[base + 3u] = progress.walk.node;
+    states[base + 4u] = progress.walk.returnTo;
+    for (int i = 0; i < 3; ++i) {
+        states[base + 5u + uint(i)] = floatBitsToUint(sums.seen[i]);
+        states[base + 8u + uint(i)] = floatBitsToUint(sums.whole[i]);
+    }
+    states[base + 11u] = floatBitsToUint(sums.borders);
+    states[base + 12u] = floatBitsToUint(sums.samples);
+    for (int j = 0; j < ROWS; ++j) states[base + uint(EXACT_STATE_WORDS + j)] = hidden[j];
+}
+
+void load(uint base, out Progress progress, out Sums sums) {
+    progress.part = int(states[base]) - 1;
+    progress.next = states[base + 1u];
+    progress.special = states[base + 2u];
+    progress.walk = Walk(states[base + 3u], states[base + 4u]);
+    for (int i = 0; i < 3; ++i) {
+        sums.seen[i] = uintBitsToFloat(states[base + 5u + uint(i)]);
+        sums.whole[i] = uintBitsToFloat(states[base + 8u + uint(i)]);
+    }
+    sums.borders = uintBitsToFloat(states[base + 11u]);
+    sums.samples = uintBitsToFloat(states[base + 12u]);
+}
+
+Shaft shaftFrom(vec3 apex) {
+    bool isDistant = shapeOfLight() == EXACT_DISTANT;
+    Shaft shaft;
+    shaft.fromMin = apex - 1e-6 * abs(apex);
+    shaft.fromMax = apex + 1e-6 * abs(apex);
+    shaft.inverseLower = inverseSlope(isDistant ? light.boxMin.xyz : light.boxMin.xyz - shaft.fromMin);
+    shaft.inverseUpper = inverseSlope(isDistant ? light.boxMax.xyz : light.boxMax.xyz - shaft.fromMax);
+    shaft.end = isDistant ? 3e37 : 1.0;
+    return shaft;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    bool inside = all(lessThan(pixel, view.size_px.xy));
+    uint base = uint(min(pixel.y, view.size_px.y - 1) * view.size_px.x + min(pixel.x, view.size_px.x - 1)) * STATE_WORDS;
+    ivec2 tile = pixel / 8;
+    uint tileIndex = uint(tile.y * light.counts.y + tile.x);
+    uvec4 list = tileLists[tileIndex];
+    uint first = tileIndex * uint(light.counts.z), capacity = uint(light.counts.z);
+
+    Progress progress = Progress(0, 0u, 0u, Walk(list.z, list.w));
+    Sums sums = Sums(vec3(0.0), vec3(0.0), 0.0, 0.0);
+    bool resumes = round_ > 0;
+    if (resumes) {
+        if (states[base] == 0u || !inside) return;
+        load(base, progress, sums);
+    }
+
+    Receiver receiver;
+    bool receives = loadReceiver(min(pixel, view.size_px.xy - 1), receiver) && inside;
+    vec3 apex = apexOf(receiver);
+    SeenLight seen = seeLight(apex);
+    vec3 toSurface = isFlat() ? receiver.posLight - apex : vec3(0.0);
+    int patches = receives ? seen.patches : 0;
+
+    bool isPaused = false;
+    for (; progress.part < 6 * light.counts.x; ++progress.part) {
+        int face = progress.part / light.counts.x, lattice = progress.part - face * light.counts.x;
+        bool isOn = face < patches;
+        if (!anyOfUs(isOn)) break;
+        Patch patch_ = patchOf(seen, face, receiver.normalLight, toSurface);
+        vec2 offset = light.offsets[lattice].xy;
+        beginWith(patch_, receiver.normalLight, lattice, offset, toSurface);
+        for (int j = 0; j < ROWS && resumes; ++j) hidden[j] = states[base + uint(EXACT_STATE_WORDS + j)];
+        resumes = false;
+
+        bool isDark = !isOn || isAllHidden();
+        while (progress.next < list.x && work < roundWork && anyOfUs(!isDark)) {
+            // The next candidate that matters to anyone.
+            Blocker blocker;
+            bool counts = false;
+            while (progress.next < list.x && work < roundWork && !anyOfUs(counts)) {
+                blocker = loadBlocker(candidates[first + progress.next], apex, patch_);
+                counts = !isDark && mayHide(blocker, receiver.normalLight);
+                ++progress.next;
+                ++work;
+            }
+            project(blocker, offset);
+            hide(counts);
+            isDark = isDark || isAllHidden();
+            work += 2 + 2 * ROWS;
+        }
+
+        // Special candidates, then whatever did not fit into the lists.
+        Shaft shaft = shaftFrom(apex);
+        while (!isOver(progress, list) && work < roundWork && anyOfUs(!isDark)) {
+            // The next triangle that matters to anyone.
+            bool counts = false;
+            uint leaf = 0u;
+            Blocker blocker;
+            while (!isOver(progress, list) && work < roundWork && !anyOfUs(counts)) {
+                bool isListed = progress.special < list.y;
+                TreeNode visited = loadNode(isListed ? 0u : progress.walk.node);
+                leaf = isListed ? candidates[first + capacity - 1u - progress.special] : visited.leaf;
+                bool isHit = isListed || anyOfUs(!isDark && mayBlock(shaft, visited.boxMin, visited.boxMax));
+                bool isBlocker = isListed || (isHit && isTriangle(visited));
+                if (!isListed) progress.walk = advance(progress.walk, visited, isHit);
+                progress.special += isListed ? 1u : 0u;
+                blocker = loadBlocker(isBlocker ? leaf & ~EXACT_MASKED : 0u, apex, patch_);
+                counts = isBlocker && !isDark && mayHide(blocker, receiver.normalLight);
+                ++work;
+            }
+            project(blocker, offset);
+            bool plain = isPlain(blocker, seen, leaf);
+            hide(counts && plain);
+            hideSamples(blocker, seen, patch_, offset, leaf, counts && !plain);
+            isDark = isDark || isAllHidden();
+            work += 4 + 2 * ROWS;
+        }
+        isPaused = !isOver(progress, list) && anyOfUs(!isDark);
+        if (isPaused) break;
+
+        addUp(sums, seen, patch_, receiver.normalLight, lattice, offset, isOn);
+        work += 32 * ROWS;
+        progress.next = 0u;
+        progress.special = 0u;
+        progress.walk = Walk(list.z, list.w);
+    }
+
+    if (!inside) return;
+    if (isPaused) {
+        save(base, progress, sums);
+        uvec2 groups = uvec2(view.size_px.xy + 7) / 8u;
+        atomicMax(roundGroups[3 * round_ + 3], groups.x);
+        atomicMax(roundGroups[3 * round_ + 4], groups.y);
+        atomicMax(roundGroups[3 * round_ + 5], 1u);
+        return;
+    }
+    states[base] = 0u;
+    vec3 value = mix(vec3(0.0), sums.seen / max(sums.whole, vec3(1e-37)), greaterThan(sums.whole, vec3(0.0)));
+    if (!receives) value = vec3(1.0);
+    imageStore(visibility, pixel, vec4(clamp(value, 0.0, 1.0), 1.0));
+    imageStore(errorBound, pixel, vec4(sums.samples > 0.0 ? min(0.5 * sums.borders / sums.samples, 1.0) : 0.0));
+}
