@@ -20,8 +20,8 @@ struct Device::Internals {
     int maxTextureSize_px = 0;
     int maxLayers = 0;
     bool isSoftware = false;
-    /// The vertex shader may write gl_Layer (ARB_shader_viewport_layer_array), so that one instanced draw serves many
-    /// layers; else each layer is drawn by itself.
+    /// The vertex shader may write gl_Layer (ARB_shader_viewport_layer_array), so that one instanced draw
+    /// serves many layers; else each layer is drawn by itself.
     bool layerFromVertexShader = false;
 };
 

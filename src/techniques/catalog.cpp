@@ -30,17 +30,21 @@ std::unique_ptr<Technique> make(Device& device) {
 }
 
 constexpr std::array entries = {
-    Entry{{"hard", "one shadow map from the light's centre: no penumbra (Williams 1978)", 0.30f}, make<HardShadowMap>},
+    Entry{{"hard", "one shadow map from the light's centre: no penumbra (Williams 1978)", 0.30f},
+          make<HardShadowMap>},
     Entry{{"pcf", "a shadow map filtered over a fixed kernel (Reeves et al. 1987)", 0.30f}, make<Pcf>},
-    Entry{{"pcss", "blocker search, then a filter as wide as the penumbra (Fernando 2005)", 0.02f}, make<Pcss>},
-    Entry{{"shadow-width", "distances to the shadow's border beside one shadow map (Kirsch and Döllner 2003)", 0.03f},
+    Entry{{"pcss", "blocker search, then a filter as wide as the penumbra (Fernando 2005)", 0.02f},
+          make<Pcss>},
+    Entry{{"shadow-width", "distances to the shadow's border beside one shadow map (Kirsch and Döllner 2003)",
+           0.03f},
           make<ShadowWidthMap>},
     Entry{{"smoothies", "geometry on silhouettes fades the edges of a shadow map (Chan and Durand 2003)",
            0.02f},
           make<Smoothies>},
     Entry{{"uniform", "n x n shadow maps from all over the light (Schwaerzler et al. 2012)", 0.03f},
           make<UniformLightSampling>},
-    Entry{{"adaptive", "as many shadow maps from all over the light as the view needs (Schwaerzler et al. 2012)", 0.03f},
+    Entry{{"adaptive",
+           "as many shadow maps from all over the light as the view needs (Schwaerzler et al. 2012)", 0.03f},
           make<AdaptiveLightSampling>},
     Entry{{"hard-volumes", "shadow volumes of the light's centre: edges as sharp as the picture (Crow 1977)",
            0.30f},
@@ -48,7 +52,8 @@ constexpr std::array entries = {
     Entry{{"soft-volumes", "layers counted from the edges of penumbra wedges (after Assarsson et al. 2003)",
            0.01f},
           make<SoftVolumes>},
-    Entry{{"exact", "samples of the light, each decided exactly, from triangles without maps", 0.02f}, make<ExactVisibility>},
+    Entry{{"exact", "samples of the light, each decided exactly, from triangles without maps", 0.02f},
+          make<ExactVisibility>},
 };
 
 constexpr auto infos = [] {

@@ -34,10 +34,11 @@ DepthMap::DepthMap(Device& device)
 void DepthMap::allocate(int mapSize_px, int layers) {
     if (maps_.width_px() == mapSize_px && maps_.layers() >= layers) return;
     if (mapSize_px > device_.maxTextureSize_px || layers > device_.maxLayers) {
-        throw Error(Error::Kind::badArgument,
-                    std::to_string(layers) + " maps of " + std::to_string(mapSize_px) +
-                        " texels squared are more than this device allows (" + std::to_string(device_.maxLayers) +
-                        " maps, " + std::to_string(device_.maxTextureSize_px) + " texels)");
+        throw Error(Error::Kind::badArgument, std::to_string(layers) + " maps of " +
+                                                  std::to_string(mapSize_px) +
+                                                  " texels squared are more than this device allows (" +
+                                                  std::to_string(device_.maxLayers) + " maps, " +
+                                                  std::to_string(device_.maxTextureSize_px) + " texels)");
     }
     maps_ = {};  // freed first, so that the two need not fit together
     maps_ = gl::Texture({.width_px = mapSize_px,
@@ -117,7 +118,8 @@ void DepthMap::draw(const Caster& caster, int instances) const {
     gl::attachFloats(vertices_.name(), 1, mesh.uvBuffer(), 2);
     glVertexArrayElementBuffer(vertices_.name(), mesh.indexBuffer());
     if (caster.alphaMask.texture != 0) glBindTextureUnit(0, caster.alphaMask.texture);
-    glDrawElementsInstanced(GL_TRIANGLES, GLsizei(mesh.indices().size()), GL_UNSIGNED_INT, nullptr, instances);
+    glDrawElementsInstanced(GL_TRIANGLES, GLsizei(mesh.indices().size()), GL_UNSIGNED_INT, nullptr,
+                            instances);
 }
 
 void DepthMap::bind(unsigned unit, unsigned block) const {

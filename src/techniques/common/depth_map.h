@@ -14,8 +14,8 @@
 
 namespace penumbra {
 
-/// The nearest caster as light cameras see it: one layer a camera, reversed 32-bit float depth (Williams 1978).
-/// Shaders read it through depth_map.glsl.
+/// The nearest caster as light cameras see it: one layer a camera, reversed 32-bit float depth (Williams
+/// 1978). Shaders read it through depth_map.glsl.
 class DepthMap {
   public:
     /// Which surface a texel sees.
@@ -28,8 +28,8 @@ class DepthMap {
 
     /// Draws every caster that casts into one layer for each camera, leaving out those a camera cannot see.
     /// Throws Error::Kind::badArgument where the device has no room for so many or so large maps.
-    void render(std::span<const Caster> casters, const LightSpaceScene& scene, std::span<const LightCamera> cameras,
-                int mapSize_px, Surface surface = Surface::nearest);
+    void render(std::span<const Caster> casters, const LightSpaceScene& scene,
+                std::span<const LightCamera> cameras, int mapSize_px, Surface surface = Surface::nearest);
 
     /// Binds the maps to texture unit `unit` and their cameras to storage block `block`.
     void bind(unsigned unit, unsigned block) const;

@@ -8,13 +8,16 @@
 
 namespace penumbra {
 
-inline glm::vec3 toGlm(const Vec3& v) { return {v.x, v.y, v.z}; }
+inline glm::vec3 toGlm(const Vec3& v) {
+    return {v.x, v.y, v.z};
+}
 
 /// Transforms are composed in double precision, so that a chain whose large translations cancel stays exact.
 inline glm::dmat4 toGlm(const Mat4& matrix) {
     glm::dmat4 result;
     for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) result[column][row] = matrix.columns[std::size_t(column)][std::size_t(row)];
+        for (int row = 0; row < 4; ++row)
+            result[column][row] = matrix.columns[std::size_t(column)][std::size_t(row)];
     }
     return result;
 }

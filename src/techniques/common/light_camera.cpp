@@ -18,7 +18,9 @@ using Polygon = ReceiverRegion::Polygon;
 /// The half-space of points p with dot(plane, (p, 1)) >= 0.
 using Plane = glm::dvec4;
 
-double signedDistance(const Plane& plane, const glm::dvec3& p) { return glm::dot(plane, glm::dvec4(p, 1)); }
+double signedDistance(const Plane& plane, const glm::dvec3& p) {
+    return glm::dot(plane, glm::dvec4(p, 1));
+}
 
 /// Sutherland and Hodgman 1974.
 Polygon clip(const Polygon& polygon, const Plane& plane) {
@@ -48,8 +50,8 @@ std::vector<Polygon> facesOf(const BoxCorners& c) {
             {c[2], c[3], c[7], c[6]}, {c[0], c[1], c[3], c[2]}, {c[4], c[6], c[7], c[5]}};
 }
 
-/// Inward planes of the hexahedron's faces, oriented by its centre. A flat box has planes without a direction, which
-/// clip nothing.
+/// Inward planes of the hexahedron's faces, oriented by its centre. A flat box has planes without a
+/// direction, which clip nothing.
 std::vector<Plane> planesOf(const BoxCorners& corners) {
     glm::dvec3 center(0);
     for (const glm::dvec3& corner : corners) center += corner / 8.0;
@@ -81,7 +83,8 @@ struct Frustum {
     bool contains(const BoxCorners& box) const {
         const std::vector<Plane> planes = planesOf(corners);
         return std::ranges::all_of(box, [&](const glm::dvec3& p) {
-            return std::ranges::all_of(planes, [&](const Plane& plane) { return signedDistance(plane, p) >= 0; });
+            return std::ranges::all_of(planes,
+                                       [&](const Plane& plane) { return signedDistance(plane, p) >= 0; });
         });
     }
 };
@@ -89,12 +92,15 @@ struct Frustum {
 Frustum frustumOf(const View& view, const glm::dmat4& lightFromWorld, double far_m) {
     const glm::dmat4 viewFromClip = glm::inverse(toGlm(view.clipFromView));
     const glm::dmat4 lightFromView = lightFromWorld * glm::inverse(toGlm(view.viewFromWorld));
-    const double nearZ = view.depth.reversed ? 1
-                         : view.depth.range == DepthConvention::Range::zeroToOne ? 0 : -1;
-    const double middleZ = view.depth.reversed && view.depth.range == DepthConvention::Range::minusOneToOne ? 0 : 0.5;
+    const double nearZ = view.depth.reversed                                     ? 1
+                         : view.depth.range == DepthConvention::Range::zeroToOne ? 0
+                                                                                 : -1;
+    const double middleZ =
+        view.depth.reversed && view.depth.range == DepthConvention::Range::minusOneToOne ? 0 : 0.5;
     Frustum frustum;
     for (std::size_t i = 0; i < 4; ++i) {
-        // Two points on each edge of the frustum; the far one is moved along the edge to view-space z = -far_m.
+        // Two points on each edge of the frustum; the far one is moved along the edge to view-space z =
+        // -far_m.
         const glm::dvec2 ndc((i & 1) ? 1 : -1, (i & 2) ? 1 : -1);
         const glm::dvec4 nearClip = viewFromClip * glm::dvec4(ndc, nearZ, 1);
         const glm::dvec4 middleClip = viewFromClip * glm::dvec4(ndc, middleZ, 1);
@@ -139,10 +145,12 @@ std::optional<LightCamera> fitWindow(LightCamera camera, const std::vector<Polyg
 
     const glm::dvec2 extent = camera.windowMax - camera.windowMin;
     const double smallest = 1e-6 * (camera.orthographic ? farthest : 1) + 1e-6 * std::max(extent.x, extent.y);
-    const glm::dvec2 border = glm::max(extent, smallest) * (2.0 / std::max(1, options.mapSize_px - 4)) + options.margin;
+    const glm::dvec2 border =
+        glm::max(extent, smallest) * (2.0 / std::max(1, options.mapSize_px - 4)) + options.margin;
     camera.windowMin -= border;
     camera.windowMax += border;
-    // A float depth that tends to zero is as precise far away as it is near: the near plane may touch the light.
+    // A float depth that tends to zero is as precise far away as it is near: the near plane may touch the
+    // light.
     if (!camera.orthographic) camera.near_m = 1e-9 * farthest;
     return camera;
 }
@@ -184,7 +192,8 @@ LightCamera distantCamera(const LightSpaceScene& scene, const LightCameraOptions
 glm::dvec3 coneAxis(const std::vector<glm::dvec3>& directions) {
     glm::dvec3 axis = directions.front();
     for (int i = 1; i <= 64; ++i) {
-        const auto farthest = std::ranges::min(directions, {}, [&](const auto& d) { return glm::dot(d, axis); });
+        const auto farthest =
+            std::ranges::min(directions, {}, [&](const auto& d) { return glm::dot(d, axis); });
         axis += (farthest - axis) / double(i + 1);
         if (glm::length(axis) < 1e-6) return directions.front();
     }
@@ -194,7 +203,8 @@ glm::dvec3 coneAxis(const std::vector<glm::dvec3>& directions) {
 LightSpaceScene makeLightSpaceScene(const ShadowInputs& inputs, const glm::dmat4& lightFromWorld) {
     LightSpaceScene scene;
     double farthest_m = 0;
-    const glm::dvec4 viewForwardLight = -glm::row(toGlm(inputs.view.viewFromWorld) * glm::inverse(lightFromWorld), 2);
+    const glm::dvec4 viewForwardLight =
+        -glm::row(toGlm(inputs.view.viewFromWorld) * glm::inverse(lightFromWorld), 2);
     for (const Caster& caster : inputs.casters) {
         const glm::dmat4 lightFromMesh = lightFromWorld * toGlm(caster.worldFromMesh);
         const Box& box = caster.mesh->bounds();
@@ -272,7 +282,8 @@ std::vector<LightCamera> fitLightCameras(const AreaLight& light, const LightSpac
     const std::vector<Polygon>& receivers = scene.receivers.polygons;
     if (receivers.empty()) return cameras;
     if (light.shape == LightShape::distant) {
-        if (auto camera = fitWindow(distantCamera(scene, options), receivers, options)) cameras.push_back(*camera);
+        if (auto camera = fitWindow(distantCamera(scene, options), receivers, options))
+            cameras.push_back(*camera);
         return cameras;
     }
 
@@ -285,7 +296,8 @@ std::vector<LightCamera> fitLightCameras(const AreaLight& light, const LightSpac
     if (directions.empty()) return cameras;
     const glm::dvec3 axis = coneAxis(directions);
     constexpr double cosineOfHalfField = 0.5;
-    if (std::ranges::all_of(directions, [&](const auto& d) { return glm::dot(d, axis) > cosineOfHalfField; })) {
+    if (std::ranges::all_of(directions,
+                            [&](const auto& d) { return glm::dot(d, axis) > cosineOfHalfField; })) {
         const glm::dvec3 up = std::abs(axis.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
         LightCamera camera{.faceFromLight = lookAlong(axis, up, options.originLight)};
         if (auto fitted = fitWindow(camera, receivers, options)) cameras.push_back(*fitted);

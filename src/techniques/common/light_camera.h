@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras that look from a point of the light at what it can shadow: where shadow maps of every kind are drawn from.
+// Cameras that look from a point of the light at what it can shadow: where shadow maps of every kind are
+// drawn from.
 #pragma once
 
 #include <array>
@@ -24,7 +25,7 @@ using BoxCorners = std::array<glm::dvec3, 8>;
 
 /// The boxes of casters in light space, and the receivers among what the view sees.
 struct LightSpaceScene {
-    std::vector<BoxCorners> boxes;     ///< one a caster, in their order; empty meshes have NaN corners
+    std::vector<BoxCorners> boxes;          ///< one a caster, in their order; empty meshes have NaN corners
     std::vector<glm::dmat4> lightFromMesh;  ///< one a caster
     ReceiverRegion receivers;
 };
@@ -35,8 +36,8 @@ LightSpaceScene makeLightSpaceScene(const ShadowInputs& inputs, const glm::dmat4
 /// The axis of the narrowest cone around unit vectors, nearly. There must be at least one.
 glm::dvec3 coneAxis(const std::vector<glm::dvec3>& directions);
 
-/// A camera in face space: x to the right, y up, z along the axis it looks. Perspective cameras have the light's point
-/// at the origin and a window in tangents (x/z, y/z); orthographic ones a window in metres.
+/// A camera in face space: x to the right, y up, z along the axis it looks. Perspective cameras have the
+/// light's point at the origin and a window in tangents (x/z, y/z); orthographic ones a window in metres.
 struct LightCamera {
     glm::dmat4 faceFromLight{1};
     glm::dvec2 windowMin{0}, windowMax{0};
@@ -57,9 +58,9 @@ struct LightCameraOptions {
     double margin = 0;          ///< added around each window, in tangents or metres
 };
 
-/// Cameras that together see every receiver: one perspective where its field of view stays below 120 degrees, faces of
-/// a cube around the light where not, one orthographic camera for distant lights. Each window is fitted to the
-/// receivers in it. None where nothing receives.
+/// Cameras that together see every receiver: one perspective where its field of view stays below 120 degrees,
+/// faces of a cube around the light where not, one orthographic camera for distant lights. Each window is
+/// fitted to the receivers in it. None where nothing receives.
 std::vector<LightCamera> fitLightCameras(const AreaLight& light, const LightSpaceScene& scene,
                                          const LightCameraOptions& options);
 

@@ -33,7 +33,9 @@ bool isRotation(const Mat4& matrix) {
     return true;
 }
 
-bool isSize(float value) { return std::isfinite(value) && value >= 0; }
+bool isSize(float value) {
+    return std::isfinite(value) && value >= 0;
+}
 
 }  // namespace
 
@@ -52,7 +54,8 @@ void checkInputs(const ShadowInputs& inputs, const VisibilityBuffer& out) {
             "AreaLight: worldFromLight is not a rotation and translation");
     require(isSize(light.width_m) && isSize(light.height_m) && isSize(light.radius_m),
             "AreaLight: width_m, height_m and radius_m must be finite and not negative");
-    require(light.angle_rad >= 0 && light.angle_rad <= 3.1415927f, "AreaLight: angle_rad must lie in [0, pi]");
+    require(light.angle_rad >= 0 && light.angle_rad <= 3.1415927f,
+            "AreaLight: angle_rad must lie in [0, pi]");
     require(light.radianceTexture == 0 || light.shape == LightShape::rect,
             "AreaLight: only rect lights may be textured");
     require(out.colored() == (light.radianceTexture != 0),
@@ -96,7 +99,8 @@ void ViewBinding::bind(const View& view, const glm::dmat4& lightFromWorldMatrix)
 }
 
 void bindVisibility(const VisibilityBuffer& out, unsigned unit) {
-    glBindImageTexture(unit, out.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY, out.colored() ? GL_RGBA16F : GL_R32F);
+    glBindImageTexture(unit, out.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY,
+                       out.colored() ? GL_RGBA16F : GL_R32F);
 }
 
 std::vector<PassTime> passTimes(const gl::PassTimers& timers) {

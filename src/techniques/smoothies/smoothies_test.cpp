@@ -179,7 +179,8 @@ TEST_F(SmoothiesTest, MovesWithoutPopping) {
     constexpr PictureSize size{96, 72};
     const auto rendersOf = [&](std::string_view name) {
         const std::unique_ptr<Technique> technique = workbench().makeTechnique(name);
-        if (name == "reference") setParameter(*technique, "samples", "1024");  // its noise would count as flicker
+        if (name == "reference")
+            setParameter(*technique, "samples", "1024");  // its noise would count as flicker
         std::vector<Image> frames;
         for (int frame = 0; frame <= 4; ++frame) {
             frames.push_back(render(*technique, scene, size, 1.0 + frame / 60.0).visibility);
@@ -201,7 +202,8 @@ TEST_F(SmoothiesTest, MovesWithoutPopping) {
     };
     const double flicker = flickerOf("smoothies"), flickerOfHard = flickerOf("hard");
     RecordProperty("flicker", std::to_string(flicker));
-    // A hard shadow's border jumps from pixel to pixel. Measured: 0.021 against its 0.047 (README.md says where it is).
+    // A hard shadow's border jumps from pixel to pixel. Measured: 0.021 against its 0.047 (README.md says
+    // where it is).
     EXPECT_LE(flicker, 0.5 * flickerOfHard) << flickerOfHard;
 }
 
