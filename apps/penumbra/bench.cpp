@@ -15,6 +15,7 @@ namespace {
 struct BenchArguments {
     SceneArguments scene;
     std::string techniques = "all";
+    std::vector<std::string> settings;
     int rounds = 15;
     bool json = false;
 };
@@ -82,8 +83,10 @@ void bench(const BenchArguments& arguments) {
     workbench.open(scene);
 
     std::vector<Contender> contenders;
-    for (const std::string& name : names)
+    for (const std::string& name : names) {
         contenders.push_back({name, workbench.makeTechnique(name), {}, {}, {}});
+        if (name != "hard") applySettings(*contenders.back().technique, arguments.settings);
+    }
     Progress progress("bench");
     constexpr int warmUp = 2;
     for (int round = -warmUp; round < arguments.rounds; ++round) {
@@ -114,6 +117,10 @@ void addBench(CLI::App& app) {
     auto arguments = std::make_shared<BenchArguments>();
     arguments->scene.addTo(*command);
     command->add_option("-t,--technique", arguments->techniques, "NAME,NAME or all")->capture_default_str();
+    command
+        ->add_option("--set", arguments->settings,
+                     "KEY=VALUE: a parameter of the techniques other than hard; may be repeated")
+        ->take_all();
     command->add_option("--rounds", arguments->rounds, "measured rounds")
         ->capture_default_str()
         ->check(CLI::Range(1, 10000));

@@ -12,7 +12,6 @@ layout(std430, binding = 3) readonly buffer LayerTaps { LayerTap layerTaps[]; };
 layout(location = 5) uniform vec2 nearFar_m;
 layout(location = 6) uniform bool isOneSided;
 layout(location = 7) uniform bool isWeightedByIrradiance;
-layout(location = 8) uniform bool isTwoSided;
 layout(location = 10) uniform mat3 faceFromLight[6];  // locations 10 to 15
 
 // A receiver in the axes of the maps; in a cube's, in those of the light.
