@@ -20,14 +20,17 @@ bool sameBits(const std::vector<T>& a, std::span<const T> b) {
     return a.size() == b.size() && (b.empty() || std::memcmp(a.data(), b.data(), b.size_bytes()) == 0);
 }
 
-bool sameMatrix(const Mat4& a, const Mat4& b) { return std::memcmp(&a, &b, sizeof(Mat4)) == 0; }
-
-glm::uvec4 texel(const glm::vec3& v, std::uint32_t w) {
-    return {std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y), std::bit_cast<std::uint32_t>(v.z), w};
+bool sameMatrix(const Mat4& a, const Mat4& b) {
+    return std::memcmp(&a, &b, sizeof(Mat4)) == 0;
 }
 
-/// The middle of the casters, rounded to a multiple of a power of two that is larger than they are: it stays where it
-/// is while they move about, and depends on nothing but the inputs.
+glm::uvec4 texel(const glm::vec3& v, std::uint32_t w) {
+    return {std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y),
+            std::bit_cast<std::uint32_t>(v.z), w};
+}
+
+/// The middle of the casters, rounded to a multiple of a power of two that is larger than they are: it stays
+/// where it is while they move about, and depends on nothing but the inputs.
 glm::dvec3 chooseOrigin(std::span<const Caster> casters) {
     glm::dvec3 low(1e300), high(-1e300);
     for (const Caster& caster : casters) {
@@ -55,8 +58,9 @@ bool TexelBuffer::reserve(std::size_t texels) {
     GLint64 limit = 0;
     glGetInteger64v(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
     if (GLint64(texels) > limit) {
-        throw Error(Error::Kind::badArgument, std::string(label_) + ": the casters have more triangles than fit into a " +
-                                                  "buffer texture of this device (" + std::to_string(limit) + " texels)");
+        throw Error(Error::Kind::badArgument,
+                    std::string(label_) + ": the casters have more triangles than fit into a " +
+                        "buffer texture of this device (" + std::to_string(limit) + " texels)");
     }
     // Freed first, so that the two need not fit together.
     view_ = {};
@@ -148,7 +152,8 @@ void CasterSoup::send() {
     bool changed = false;
     for (Entry& entry : entries_) {
         const std::size_t triangles = entry.corners.size() / 3;
-        entry.isSent = entry.isSent && entry.firstNode == node && entry.firstTriangle == triangle && entry.firstMasked == masked;
+        entry.isSent = entry.isSent && entry.firstNode == node && entry.firstTriangle == triangle &&
+                       entry.firstMasked == masked;
         changed = changed || !entry.isSent;
         entry.firstNode = node;
         entry.firstTriangle = triangle;
@@ -161,7 +166,8 @@ void CasterSoup::send() {
     nodeCount_ = node;
     triangleCount_ = triangle;
     maskedCount_ = masked;
-    const bool lost = nodes_.reserve(2 * node) | triangles_.reserve(3 * triangle) | masked_.reserve(2 * masked);
+    const bool lost =
+        nodes_.reserve(2 * node) | triangles_.reserve(3 * triangle) | masked_.reserve(2 * masked);
     if (!changed && !lost) return;
     for (Entry& entry : entries_) {
         if (lost || !entry.isSent) send(entry);
@@ -175,7 +181,8 @@ void CasterSoup::send(Entry& entry) {
     for (std::size_t i = 0; i < entry.boxes.size(); ++i) {
         const TreeShape::Node& node = entry.shape.nodes[i];
         const bool last = node.skip == entry.boxes.size();
-        texels.push_back(texel(entry.boxes[i].min, last ? EXACT_END : std::uint32_t(entry.firstNode) + node.skip));
+        texels.push_back(
+            texel(entry.boxes[i].min, last ? EXACT_END : std::uint32_t(entry.firstNode) + node.skip));
         const std::uint32_t leaf = std::uint32_t(entry.firstTriangle) + node.leaf;
         texels.push_back(texel(entry.boxes[i].max, node.leaf == TreeShape::inner ? EXACT_INNER
                                                    : entry.mask >= 0             ? leaf | EXACT_MASKED
@@ -193,7 +200,8 @@ void CasterSoup::send(Entry& entry) {
         texels.clear();
         const auto uv = [&](std::size_t corner) {
             const std::uint32_t vertex = entry.indices[corner];
-            return vertex < entry.uvs.size() ? glm::vec2(entry.uvs[vertex].x, entry.uvs[vertex].y) : glm::vec2(0);
+            return vertex < entry.uvs.size() ? glm::vec2(entry.uvs[vertex].x, entry.uvs[vertex].y)
+                                             : glm::vec2(0);
         };
         for (std::size_t i = 0; i < entry.indices.size(); i += 3) {
             texels.push_back(texel({uv(i), uv(i + 1).x}, std::bit_cast<std::uint32_t>(uv(i + 1).y)));
@@ -213,9 +221,10 @@ void CasterSoup::sendTop() {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const TreeShape::Node& node = shape.nodes[i];
         texels.push_back(texel(boxes[i].min, node.skip == boxes.size() ? EXACT_END : node.skip));
-        texels.push_back(texel(boxes[i].max, node.leaf == TreeShape::inner
-                                                 ? EXACT_INNER
-                                                 : EXACT_SUBTREE | std::uint32_t(entries_[node.leaf].firstNode)));
+        texels.push_back(
+            texel(boxes[i].max, node.leaf == TreeShape::inner
+                                    ? EXACT_INNER
+                                    : EXACT_SUBTREE | std::uint32_t(entries_[node.leaf].firstNode)));
     }
     nodes_.write(texels, 0);
 }

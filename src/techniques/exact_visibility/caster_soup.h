@@ -14,8 +14,8 @@
 
 namespace penumbra {
 
-/// A buffer that shaders read with texelFetch, four words at a time; floats travel as their bits, among integers. Its size
-/// only grows.
+/// A buffer that shaders read with texelFetch, four words at a time; floats travel as their bits, among
+/// integers. Its size only grows.
 class TexelBuffer {
   public:
     explicit TexelBuffer(std::string_view label) : label_(label) {}
@@ -31,27 +31,30 @@ class TexelBuffer {
     gl::Handle<gl::deleteTexture> view_;
 };
 
-/// Keeps, from frame to frame, what has not changed: the shape of each mesh's tree while its triangles are the same,
-/// boxes and corners while it does not move. Where casters moved or were deformed, only theirs are computed and sent
-/// again; a small tree over the casters is rebuilt.
+/// Keeps, from frame to frame, what has not changed: the shape of each mesh's tree while its triangles are
+/// the same, boxes and corners while it does not move. Where casters moved or were deformed, only theirs are
+/// computed and sent again; a small tree over the casters is rebuilt.
 class CasterSoup {
   public:
     CasterSoup();
 
-    /// Takes the casters in. Throws Error::Kind::badArgument where they have more triangles than the device can
-    /// address.
+    /// Takes the casters in. Throws Error::Kind::badArgument where they have more triangles than the device
+    /// can address.
     void update(std::span<const Caster> casters);
 
     /// World space moved, not turned, so that coordinates are small: how shaders see everything.
     const glm::dvec3& originWorld() const { return originWorld_; }
 
-    /// Nodes, triangles and masked triangles' texture coordinates, to units `first`, `first + 1`, `first + 2`.
+    /// Nodes, triangles and masked triangles' texture coordinates, to units `first`, `first + 1`, `first +
+    /// 2`.
     void bind(unsigned first) const;
 
     std::size_t nodeCount() const { return nodeCount_; }
     std::size_t triangleCount() const { return triangleCount_; }
     std::size_t maskedCount() const { return maskedCount_; }
-    std::size_t size_bytes() const { return nodes_.size_bytes() + triangles_.size_bytes() + masked_.size_bytes(); }
+    std::size_t size_bytes() const {
+        return nodes_.size_bytes() + triangles_.size_bytes() + masked_.size_bytes();
+    }
     /// Masks in the order in which triangles name them.
     const std::vector<AlphaMask>& masks() const { return masks_; }
 

@@ -18,8 +18,9 @@ constexpr int tile_px = 8;
 constexpr unsigned firstMaskUnit = 8;
 constexpr std::size_t maxMaskTextures = 8;
 
-// llvmpipe ends all loops of a shader, without a word, once an invocation has gone through 65,535 iterations; the last
-// triangle before a pause may take some hundred more than this. Elsewhere it is watchdogs that want an end.
+// llvmpipe ends all loops of a shader, without a word, once an invocation has gone through 65,535 iterations;
+// the last triangle before a pause may take some hundred more than this. Elsewhere it is watchdogs that want
+// an end.
 constexpr int softwareRoundWork = 40000;
 constexpr int hardwareRoundWork = 1000000;
 
@@ -44,14 +45,17 @@ ExactVisibility::ExactVisibility(Device& device)
       light_("exact/light"),
       masks_("exact/masks"),
       counters_(sizeof(Counters), "exact/counters"),
-      weights_(std::size_t(EXACT_MAX_LATTICES * EXACT_MAX_ROWS * EXACT_MAX_ROWS) * sizeof(glm::vec4), "exact/weights") {
+      weights_(std::size_t(EXACT_MAX_LATTICES * EXACT_MAX_ROWS * EXACT_MAX_ROWS) * sizeof(glm::vec4),
+               "exact/weights") {
     glClearNamedBufferData(counters_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
 
 void ExactVisibility::describe(ParameterVisitor& visitor) {
     static constexpr std::array<std::string_view, 2> weights = {"area", "irradiance"};
-    visitor.integer({.name = "samples", .help = "points of the light whose visibility is determined"}, samples_, {16, 1024});
-    visitor.choice({.name = "weight", .help = "what each part of the light counts: its area, or what it sends to the surface"},
+    visitor.integer({.name = "samples", .help = "points of the light whose visibility is determined"},
+                    samples_, {16, 1024});
+    visitor.choice({.name = "weight",
+                    .help = "what each part of the light counts: its area, or what it sends to the surface"},
                    weight_, weights);
     visitor.integer({.name = "tile_candidates",
                      .unit = "triangles",
@@ -60,7 +64,8 @@ void ExactVisibility::describe(ParameterVisitor& visitor) {
     visitor.integer({.name = "round_work",
                      .unit = "iterations",
                      .help = "how much is done for a pixel before it pauses, to go on in another dispatch"},
-                    roundWork_, {2000, device_.isSoftware ? softwareRoundWork : std::numeric_limits<int>::max()});
+                    roundWork_,
+                    {2000, device_.isSoftware ? softwareRoundWork : std::numeric_limits<int>::max()});
 }
 
 const std::vector<LightLattice>& ExactVisibility::latticesFor(const AreaLight& light) {
@@ -71,7 +76,8 @@ const std::vector<LightLattice>& ExactVisibility::latticesFor(const AreaLight& l
     return lattices_[key] = makeLightLattices(key.first, disk);
 }
 
-ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs, std::span<const LightLattice> lattices) const {
+ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs,
+                                          std::span<const LightLattice> lattices) const {
     const AreaLight& light = inputs.light;
     const glm::dmat4 worldFromLight = toGlm(light.worldFromLight);
     const glm::dmat3 axes(worldFromLight);
@@ -79,7 +85,8 @@ ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs, std::span<
     const double halfAngle = 0.5 * double(light.angle_rad);
     glm::dvec3 center = isDistant ? glm::dvec3(0) : glm::dvec3(worldFromLight[3]) - soup_.originWorld();
     double sizeX = light.radius_m, sizeY = light.radius_m;
-    if (light.shape == LightShape::rect) sizeX = 0.5 * double(light.width_m), sizeY = 0.5 * double(light.height_m);
+    if (light.shape == LightShape::rect)
+        sizeX = 0.5 * double(light.width_m), sizeY = 0.5 * double(light.height_m);
     glm::dvec3 low, high;
     for (int i = 0; i < 3; ++i) {
         if (isDistant) {
@@ -88,7 +95,8 @@ ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs, std::span<
             low[i] = std::cos(std::min(angle + halfAngle, std::acos(-1.0))) - 1e-6;
             high[i] = std::cos(std::max(angle - halfAngle, 0.0)) + 1e-6;
         } else {
-            const double reach = isSphere ? light.radius_m : std::abs(axes[0][i]) * sizeX + std::abs(axes[1][i]) * sizeY;
+            const double reach =
+                isSphere ? light.radius_m : std::abs(axes[0][i]) * sizeX + std::abs(axes[1][i]) * sizeY;
             const double pad = 1e-6 * (std::abs(center[i]) + reach);
             low[i] = center[i] - reach - pad;
             high[i] = center[i] + reach + pad;
@@ -99,10 +107,10 @@ ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs, std::span<
     const glm::dmat4 worldFromView = glm::inverse(toGlm(inputs.view.viewFromWorld));
     const glm::dmat2 lattice = lattices.front().latticeFromUv, inverse = glm::inverse(lattice);
     ExactLight result{};
-    const int shape = isDistant                          ? EXACT_DISTANT
-                      : isSphere                         ? EXACT_SPHERE
+    const int shape = isDistant                         ? EXACT_DISTANT
+                      : isSphere                        ? EXACT_SPHERE
                       : light.shape == LightShape::disk ? EXACT_DISK
-                                                         : EXACT_RECT;
+                                                        : EXACT_RECT;
     result.center = glm::vec4(center, shape);
     result.axisX = glm::vec4(axes[0], sizeX);
     result.axisY = glm::vec4(axes[1], sizeY);
@@ -139,20 +147,23 @@ int ExactVisibility::roundsFor(int lattices, int rows, LightShape shape) const {
 }
 
 void ExactVisibility::allocate(int width_px, int height_px, int rows, int rounds) {
-    if (errorBound_.name() == 0 || errorBound_.width_px() != width_px || errorBound_.height_px() != height_px) {
+    if (errorBound_.name() == 0 || errorBound_.width_px() != width_px ||
+        errorBound_.height_px() != height_px) {
         errorBound_ = {};
         errorBound_ = gl::Texture(
             {.width_px = width_px, .height_px = height_px, .format = GL_R16F, .label = "exact/error bound"});
     }
     tileCount_ = ((width_px + tile_px - 1) / tile_px) * ((height_px + tile_px - 1) / tile_px);
     const std::size_t tiles_bytes = std::size_t(tileCount_) * sizeof(glm::uvec4);
-    const std::size_t lists_bytes = std::size_t(tileCount_) * std::size_t(tileCapacity_) * sizeof(std::uint32_t);
+    const std::size_t lists_bytes =
+        std::size_t(tileCount_) * std::size_t(tileCapacity_) * sizeof(std::uint32_t);
     if (tiles_.size_bytes() < tiles_bytes) tiles_ = gl::Buffer(tiles_bytes, "exact/tiles");
     if (lists_.size_bytes() < lists_bytes) {
         lists_ = {};
         lists_ = gl::Buffer(lists_bytes, "exact/candidates");
     }
-    const std::size_t states_bytes = std::size_t(width_px) * std::size_t(height_px) * std::size_t(EXACT_STATE_WORDS + rows) * sizeof(std::uint32_t);
+    const std::size_t states_bytes = std::size_t(width_px) * std::size_t(height_px) *
+                                     std::size_t(EXACT_STATE_WORDS + rows) * sizeof(std::uint32_t);
     if (states_.size_bytes() < states_bytes) {
         states_ = {};
         states_ = gl::Buffer(states_bytes, "exact/states");
@@ -255,10 +266,14 @@ Statistics ExactVisibility::statistics() const {
     statistics.counts = {
         {"triangles", double(soup_.triangleCount())},
         {"tiles with candidates", double(counters.busyTiles)},
-        {"candidates per tile", counters.busyTiles > 0 ? double(counters.triangleSum) / counters.busyTiles : 0.0},
+        {"candidates per tile",
+         counters.busyTiles > 0 ? double(counters.triangleSum) / counters.busyTiles : 0.0},
         {"most candidates in a tile", double(counters.largestTile)},
         {"tiles beyond their room", double(counters.fullTiles)},
-        {"memory", double(soup_.size_bytes() + lists_.size_bytes() + tiles_.size_bytes() + states_.size_bytes()) / (1 << 20), "MiB"},
+        {"memory",
+         double(soup_.size_bytes() + lists_.size_bytes() + tiles_.size_bytes() + states_.size_bytes()) /
+             (1 << 20),
+         "MiB"},
     };
     statistics.passes = passTimes(timers_);
     return statistics;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visibility of the samples of an area light, exactly and without noise, from any triangles: each triangle that may be
-// in the way is projected from each receiver onto the light, row by row of a tilted lattice of samples. See README.md.
+// Visibility of the samples of an area light, exactly and without noise, from any triangles: each triangle
+// that may be in the way is projected from each receiver onto the light, row by row of a tilted lattice of
+// samples. See README.md.
 #pragma once
 
 #include <map>
@@ -47,7 +48,7 @@ class ExactVisibility final : public Technique {
     Device::Internals& device_;
     CasterSoup soup_;
     gl::Program candidates_, weigh_;
-    std::map<int, gl::Program> resolve_;  // by rows of the lattice
+    std::map<int, gl::Program> resolve_;                                  // by rows of the lattice
     std::map<std::pair<int, bool>, std::vector<LightLattice>> lattices_;  // by samples, and whether in a disk
     ViewBinding view_;
     gl::ConstantBuffer<ExactLight> light_;

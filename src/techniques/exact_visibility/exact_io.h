@@ -29,16 +29,18 @@ using glm::vec4;
 #define EXACT_STATE_WORDS 13  // of a receiver whose work is not done, before the rows
 
 struct ExactLight {
-    vec4 center;  // scene space; w: shape
-    vec4 axisX;   // scene space, unit; w: half of the width (flat), radius (sphere), tan of the half angle (distant)
-    vec4 axisY;   // w: half of the height (flat), cosine of the half angle (distant)
-    vec4 axisZ;   // light is emitted along -Z; w: 1 if along +Z too
-    vec4 boxMin;  // of the light in scene space (flat, sphere), of unit vectors towards it (distant); w: 1 for a point
-    vec4 boxMax;  // w: 1 if weighted by irradiance
-    vec4 eye;     // scene space; w: 1 if a texture weights the samples
-    vec4 lattice;          // lattice from uv, columns: a 2 x 2 matrix
-    vec4 uvFromLattice;    // its inverse
-    ivec4 counts;          // x: lattices; y: tiles in a row; z: candidates a tile; w: nodes
+    vec4 center;   // scene space; w: shape
+    vec4 axisX;    // scene space, unit; w: half of the width (flat), radius (sphere), tan of the half angle
+                   // (distant)
+    vec4 axisY;    // w: half of the height (flat), cosine of the half angle (distant)
+    vec4 axisZ;    // light is emitted along -Z; w: 1 if along +Z too
+    vec4 boxMin;   // of the light in scene space (flat, sphere), of unit vectors towards it (distant); w: 1
+                   // for a point
+    vec4 boxMax;   // w: 1 if weighted by irradiance
+    vec4 eye;      // scene space; w: 1 if a texture weights the samples
+    vec4 lattice;  // lattice from uv, columns: a 2 x 2 matrix
+    vec4 uvFromLattice;                // its inverse
+    ivec4 counts;                      // x: lattices; y: tiles in a row; z: candidates a tile; w: nodes
     vec4 offsets[EXACT_MAX_LATTICES];  // xy: where uv = 0 lies in lattice coordinates
     uvec4 valid[EXACT_MAX_LATTICES * EXACT_MAX_ROWS / 4];  // bit i of row j: (i, j) is a sample
 };

@@ -59,7 +59,8 @@ TEST_F(ExactVisibilityTest, MoreSamplesAreBetter) {
     const auto error = [&](const char* samples) {
         return judge(reference, exact(scene, {{"samples", samples}})).penumbra_rmse;
     };
-    // Of lattices the error falls faster than the root of their number: a quarter for 16 times as many at most.
+    // Of lattices the error falls faster than the root of their number: a quarter for 16 times as many at
+    // most.
     EXPECT_LT(error("256"), 0.25 * error("16"));
     EXPECT_LE(error("256"), 0.01);
 }
@@ -68,7 +69,8 @@ TEST_F(ExactVisibilityTest, RoomAndRoundsChangeNoBit) {
     for (const char* name : {"overlapping-blockers", "columns"}) {
         const Scene scene = makeBuiltin(name);
         const LightResult plain = exact(scene);
-        EXPECT_EQ(plain.visibility.values, exact(scene, {{"tile_candidates", "1"}}).visibility.values) << name;
+        EXPECT_EQ(plain.visibility.values, exact(scene, {{"tile_candidates", "1"}}).visibility.values)
+            << name;
         EXPECT_EQ(plain.visibility.values,
                   exact(scene, {{"tile_candidates", "7"}, {"round_work", "2000"}}).visibility.values)
             << name;
@@ -78,7 +80,8 @@ TEST_F(ExactVisibilityTest, RoomAndRoundsChangeNoBit) {
 TEST_F(ExactVisibilityTest, WindingDuplicatesAndWeldingChangeNoBit) {
     const LightResult plain = exact(makeBuiltin("torus"));
     const Scene flipped = withMeshes("torus", [](Mesh& mesh) {
-        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 6) std::swap(mesh.indices[i], mesh.indices[i + 1]);
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 6)
+            std::swap(mesh.indices[i], mesh.indices[i + 1]);
     });
     EXPECT_EQ(plain.visibility.values, exact(flipped).visibility.values);
     const Scene doubled = withMeshes("torus", [](Mesh& mesh) {
@@ -88,8 +91,8 @@ TEST_F(ExactVisibilityTest, WindingDuplicatesAndWeldingChangeNoBit) {
     EXPECT_EQ(plain.visibility.values, exact(doubled).visibility.values);
 }
 
-// Triangles that share an edge must leave no gap: a sheet of 3,200 triangles of all shapes over the receivers hides
-// every one of 256 samples.
+// Triangles that share an edge must leave no gap: a sheet of 3,200 triangles of all shapes over the receivers
+// hides every one of 256 samples.
 TEST_F(ExactVisibilityTest, SheetOfTrianglesHasNoHoles) {
     Scene scene = makeBuiltin("half-plane");
     const auto mesh = std::ranges::find(scene.meshes, "half-plane", &Mesh::name);
@@ -100,7 +103,8 @@ TEST_F(ExactVisibilityTest, SheetOfTrianglesHasNoHoles) {
     mesh->uvs.clear();
     for (unsigned i = 0; i <= n; ++i) {
         for (unsigned j = 0; j <= n; ++j) {
-            // Up to 0.45 of a cell away from a grid of 6 x 6 m around x = z = 0; the mesh stands at x = -10 m.
+            // Up to 0.45 of a cell away from a grid of 6 x 6 m around x = z = 0; the mesh stands at x = -10
+            // m.
             const auto moved = [&](unsigned k) {
                 return (float((i * 7919 + j * 104729 + k * 7877) % 97) / 97 - 0.5f) * 0.9f / n;
             };
@@ -117,7 +121,8 @@ TEST_F(ExactVisibilityTest, SheetOfTrianglesHasNoHoles) {
     }
     const LightResult result = exact(scene, {{"samples", "256"}});
     for (int y = size.height_px / 3; y < size.height_px; ++y) {
-        for (int x = size.width_px / 4; x < 3 * size.width_px / 4; ++x) ASSERT_EQ(result.visibility.at(x, y), 0);
+        for (int x = size.width_px / 4; x < 3 * size.width_px / 4; ++x)
+            ASSERT_EQ(result.visibility.at(x, y), 0);
     }
 }
 
@@ -139,7 +144,8 @@ TEST_F(ExactVisibilityTest, LightInACasterLightsNothingOutside) {
     EXPECT_EQ(judge(truth(scene, size, 64), exact(scene)).max, 0);
 }
 
-// Half of the light is in the box: faces cross its plane, and which samples they hide depends on where they end.
+// Half of the light is in the box: faces cross its plane, and which samples they hide depends on where they
+// end.
 TEST_F(ExactVisibilityTest, FacesThroughTheLightAreNearTheReference) {
     for (const LightShape shape : {LightShape::rect, LightShape::sphere}) {
         const Scene scene = withLight(makeBuiltin("two-boxes"), [&](Light& light) {

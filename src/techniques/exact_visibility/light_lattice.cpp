@@ -30,7 +30,8 @@ LightLattice cut(const glm::dmat2& latticeFromUv, glm::dvec2 offset, bool disk) 
         }
     }
     lattice.offset -= glm::dvec2(low);
-    if (points.empty() || high.x - low.x >= EXACT_MAX_ROWS || high.y - low.y >= EXACT_MAX_ROWS) return lattice;
+    if (points.empty() || high.x - low.x >= EXACT_MAX_ROWS || high.y - low.y >= EXACT_MAX_ROWS)
+        return lattice;
     lattice.validRows.resize(std::size_t(high.y - low.y + 1));
     for (const glm::ivec2& p : points) lattice.validRows[std::size_t(p.y - low.y)] |= 1u << (p.x - low.x);
     return lattice;
@@ -56,12 +57,13 @@ double areaBelow(const glm::dvec2& direction, double distance, bool disk) {
     const double a = std::max(std::abs(direction.x), std::abs(direction.y));
     const double b = std::max(std::min(std::abs(direction.x), std::abs(direction.y)), 1e-9);
     const auto ramp2 = [](double x) { return x > 0 ? x * x : 0.0; };
-    return (ramp2(distance + a + b) - ramp2(distance + a - b) - ramp2(distance - a + b) + ramp2(distance - a - b)) /
+    return (ramp2(distance + a + b) - ramp2(distance + a - b) - ramp2(distance - a + b) +
+            ramp2(distance - a - b)) /
            (8 * a * b);
 }
 
-/// Mean square error of the share of points on one side of a straight edge, over edges of many directions. Edges
-/// along the light's axes and diagonals, which people build, are among them.
+/// Mean square error of the share of points on one side of a straight edge, over edges of many directions.
+/// Edges along the light's axes and diagonals, which people build, are among them.
 double discrepancy(const LightLattice& lattice, bool disk) {
     const std::vector<glm::dvec2> points = pointsOf(lattice);
     std::vector<double> places(points.size());
@@ -72,7 +74,8 @@ double discrepancy(const LightLattice& lattice, bool disk) {
         const glm::dvec2 direction(std::cos(angle), std::sin(angle));
         std::ranges::transform(points, places.begin(), [&](const auto& p) { return glm::dot(direction, p); });
         std::ranges::sort(places);
-        // Between neighbours the error runs from one value to the other: the mean of both squares stands for it.
+        // Between neighbours the error runs from one value to the other: the mean of both squares stands for
+        // it.
         double squares = 0;
         for (std::size_t i = 0; i < places.size(); ++i) {
             const double area = areaBelow(direction, places[i], disk);
@@ -88,7 +91,9 @@ double discrepancy(const LightLattice& lattice, bool disk) {
 
 }  // namespace
 
-glm::dvec2 LightLattice::uv(int i, int j) const { return glm::inverse(latticeFromUv) * (glm::dvec2(i, j) - offset); }
+glm::dvec2 LightLattice::uv(int i, int j) const {
+    return glm::inverse(latticeFromUv) * (glm::dvec2(i, j) - offset);
+}
 
 std::vector<LightLattice> makeLightLattices(int samples, bool disk) {
     if (samples <= 1) return {LightLattice{.validRows = {1u}}};
@@ -100,7 +105,7 @@ std::vector<LightLattice> makeLightLattices(int samples, bool disk) {
     LightLattice best;
     double bestError = std::numeric_limits<double>::infinity();
     constexpr int steps = 8;
-    for (const double tilt : {0.26, 0.31, 0.36, 0.42}) {
+    for (const double tilt : {0.50, 0.5536, 0.60, 0.66}) {
         const glm::dmat2 latticeFromUv =
             scale * glm::dmat2(std::cos(tilt), std::sin(tilt), -std::sin(tilt), std::cos(tilt));
         for (int k = 0; k < steps * steps; ++k) {

@@ -16,9 +16,11 @@ float halfArea(const TreeBox& box) {
 
 class Builder {
   public:
-    explicit Builder(std::span<const TreeBox> boxes) : boxes_(boxes), order_(boxes.size()), centers_(boxes.size()) {
+    explicit Builder(std::span<const TreeBox> boxes)
+        : boxes_(boxes), order_(boxes.size()), centers_(boxes.size()) {
         std::iota(order_.begin(), order_.end(), 0u);
-        std::ranges::transform(boxes, centers_.begin(), [](const TreeBox& box) { return 0.5f * (box.min + box.max); });
+        std::ranges::transform(boxes, centers_.begin(),
+                               [](const TreeBox& box) { return 0.5f * (box.min + box.max); });
         shape_.nodes.reserve(2 * boxes.size());
     }
 
@@ -107,7 +109,9 @@ class Builder {
 
 }  // namespace
 
-TreeShape buildTree(std::span<const TreeBox> boxes) { return Builder(boxes).build(); }
+TreeShape buildTree(std::span<const TreeBox> boxes) {
+    return Builder(boxes).build();
+}
 
 std::vector<TreeBox> refitTree(const TreeShape& shape, std::span<const TreeBox> boxes) {
     std::vector<TreeBox> result(shape.nodes.size());

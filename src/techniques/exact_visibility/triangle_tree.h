@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bounding volume hierarchy over a mesh's triangles, in depth-first order with skip links (Smits 1998, "Efficiency
-// issues for ray tracing"): it is walked without a stack, and a walk can stop at any node and be taken up there later.
+// A bounding volume hierarchy over a mesh's triangles, in depth-first order with skip links (Smits 1998,
+// "Efficiency issues for ray tracing"): it is walked without a stack, and a walk can stop at any node and be
+// taken up there later.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +24,8 @@ struct TreeBox {
     }
 };
 
-/// The shape of a tree over `n` boxes: 2 n - 1 nodes. Says nothing about where the boxes are, so that it can be kept
-/// while they move.
+/// The shape of a tree over `n` boxes: 2 n - 1 nodes. Says nothing about where the boxes are, so that it can
+/// be kept while they move.
 struct TreeShape {
     static constexpr std::uint32_t inner = 0xffffffffu;
     struct Node {
