@@ -70,14 +70,15 @@ TEST_P(Contract, EverythingIsLitWithoutCasters) {
         // 1 where the light's centre is above the horizon, 0 where all of it is below. In between the truth
         // is 1 too, but techniques that look from the centre alone cannot know.
         const LightResult ofCenter = truth(withLight(empty, shrinkToPoint), defaultSize, 2);
-        // Judged by a light twice as large: of that a good part is above wherever a sliver of the light itself is, and
-        // no ray need hit the sliver.
+        // Judged by a light twice as large: of that a good part is above wherever a sliver of the light
+        // itself is, and no ray need hit the sliver.
         const LightResult ofLight = truth(withLight(empty, growToTwice), defaultSize, 64);
         for (std::size_t i = 0; i < result.visibility.values.size(); ++i) {
             if (ofCenter.visibility.values[i] == 1) {
                 ASSERT_NEAR(result.visibility.values[i], 1, 1e-6) << "value " << i;
             } else if (ofLight.visibility.values[i] == 0 && result.reach.values[i] == 0) {
-                // Two rays may both miss what little of the light is above: that nothing arrives must be known, too.
+                // Two rays may both miss what little of the light is above: that nothing arrives must be
+                // known, too.
                 ASSERT_NEAR(result.visibility.values[i], 0, 1e-6) << "value " << i;
             }
         }
