@@ -119,6 +119,25 @@ LightSampler::FromReceiver::FromReceiver(const LightSampler& sampler, const glm:
     along_ = glm::cross(axis_, across_);
 }
 
+bool LightSampler::FromReceiver::isAboveHorizon() const {
+    const AreaLight& shape = light_.shape_;
+    const auto across = [&](const glm::vec3& axis) { return std::abs(glm::dot(normalWorld_, axis)); };
+    const float center = glm::dot(normalWorld_, toCenter_);
+    switch (shape.shape) {
+        case LightShape::rect:
+            return emitsThisWay_ && center + shape.width_m / 2 * across(light_.axisX_) +
+                                            shape.height_m / 2 * across(light_.axisY_) >
+                                        0;
+        case LightShape::disk:
+            return emitsThisWay_ &&
+                   center + shape.radius_m * std::hypot(across(light_.axisX_), across(light_.axisY_)) > 0;
+        default:
+            // The cone reaches its half-angle beyond a right angle with the normal.
+            return oneMinusCos_ > 1 ||
+                   glm::dot(normalWorld_, axis_) > -std::sqrt(oneMinusCos_ * (2 - oneMinusCos_));
+    }
+}
+
 LightSample LightSampler::FromReceiver::sample(const glm::vec2& square) const {
     const bool isFlat = light_.shape_.shape == LightShape::rect || light_.shape_.shape == LightShape::disk;
     LightSample result = isFlat ? flat(square) : cone(square);

@@ -31,6 +31,8 @@ class LightSampler {
     class FromReceiver {
       public:
         FromReceiver(const LightSampler& sampler, const glm::vec3& posWorld, const glm::vec3& normalWorld);
+        /// Some of the light is above the receiver's horizon and emits this way.
+        bool isAboveHorizon() const;
         /// The sample for `square` in [0, 1)^2. Its weight is 0 if it is below the horizon or not emitting
         /// this way.
         LightSample sample(const glm::vec2& square) const;

@@ -125,29 +125,42 @@ class PixelTracer {
     };
     static constexpr int gridSize = 8;
 
+    /// Of a light that is mostly below the horizon few samples count, or none, which would make a lit
+    /// receiver black. Then more are drawn, until this many count or the sliver is below 1 / 64 of a sample.
+    static constexpr int enoughOfSliver = 16;
+    static constexpr int maxRounds = 64;
+
     void chooseRays(std::uint32_t pixel, const glm::vec3& posWorld, const glm::vec3& normalWorld,
                     const glm::vec3& origin) {
         rays_.clear();
         const LightSampler::FromReceiver light(light_, posWorld, normalWorld);
+        if (!light.isAboveHorizon()) return;
+        const std::size_t enough = std::size_t(std::min(points_.count(), enoughOfSliver));
         for (std::uint8_t half = 0; half < 2; ++half) {
             const std::uint32_t scrambling = hashBits(hashBits(hashBits(seed_) + pixel) + half);
-            for (int i = 0; i < points_.count(); ++i) {
-                const glm::vec2 square =
-                    light_.isPoint() ? glm::vec2(0.5f) : points_.scrambled(i, scrambling);
-                const LightSample sample = light.sample(square);
-                if (sample.weight == glm::vec3(0)) continue;
-                const int column = int(square.x * gridSize);
-                const int row = int(square.y * gridSize);
-                // Boustrophedon: neighbours in order are neighbours on the light.
-                const int cell = row * gridSize + (row % 2 == 0 ? column : gridSize - 1 - column);
-                // The sample was chosen from the surface, the ray starts a little off it and still ends on
-                // the sample.
-                const glm::vec3 direction =
-                    sample.infinite ? sample.direction : sample.direction - (origin - posWorld);
-                rays_.push_back({direction, sample.infinite ? std::numeric_limits<float>::infinity() : rayEnd,
-                                 sample.weight, std::uint8_t(cell), half});
+            const std::size_t first = rays_.size();
+            for (int round = 0; round < maxRounds && rays_.size() - first < enough; ++round) {
+                chooseRound(light, origin - posWorld, scrambling + std::uint32_t(round), half);
             }
             if (light_.isPoint()) break;
+        }
+    }
+
+    /// Appends the samples of one scrambling that count. They were chosen from the surface; the rays start at
+    /// `offset` from it and still end on the samples.
+    void chooseRound(const LightSampler::FromReceiver& light, const glm::vec3& offset,
+                     std::uint32_t scrambling, std::uint8_t half) {
+        for (int i = 0; i < points_.count(); ++i) {
+            const glm::vec2 square = light_.isPoint() ? glm::vec2(0.5f) : points_.scrambled(i, scrambling);
+            const LightSample sample = light.sample(square);
+            if (sample.weight == glm::vec3(0)) continue;
+            const int column = int(square.x * gridSize);
+            const int row = int(square.y * gridSize);
+            // Boustrophedon: neighbours in order are neighbours on the light.
+            const int cell = row * gridSize + (row % 2 == 0 ? column : gridSize - 1 - column);
+            rays_.push_back({sample.infinite ? sample.direction : sample.direction - offset,
+                             sample.infinite ? std::numeric_limits<float>::infinity() : rayEnd, sample.weight,
+                             std::uint8_t(cell), half});
         }
     }
 

@@ -90,6 +90,24 @@ TEST(Reference, TheHorizonCutsBothPartAndWhole) {
     expectAll(ReferenceScene({}).trace(repeated({0, 0, 0}, {0, 0, -1}), light, nullptr, {}), 0);
 }
 
+TEST(Reference, ASliverOfTheLightAboveTheHorizonIsFound) {
+    // Receivers that see the last hundredth of a radian of the light over their horizon, less than a percent
+    // of it, and nothing in between: most of their first 64 samples miss it.
+    const float halfAngle_rad = 0.2f;
+    const float across_m = 4 * std::tan(halfAngle_rad);
+    for (const AreaLight& light :
+         {rectAt({0, 0, 2}, across_m, 0.5f), roundAt(LightShape::disk, {0, 0, 2}, across_m / 2),
+          roundAt(LightShape::sphere, {0, 0, 2}, 2 * std::sin(halfAngle_rad)),
+          AreaLight{.shape = LightShape::distant, .angle_rad = 2 * halfAngle_rad}}) {
+        const auto facing = [&](float beyondTheHorizon_rad) {
+            const float angle = halfAngle_rad + beyondTheHorizon_rad;
+            return repeated({0, 0, 0}, {std::cos(angle), 0, -std::sin(angle)});
+        };
+        expectAll(ReferenceScene({}).trace(facing(-0.01f), light, nullptr, {.samples = 64}), 1);
+        expectAll(ReferenceScene({}).trace(facing(0.001f), light, nullptr, {.samples = 64}), 0);
+    }
+}
+
 TEST(Reference, AOneSidedLightIsSeenFromItsFrontOnly) {
     for (AreaLight light : {rectAt({0, 0, -1}, 1, 1), roundAt(LightShape::disk, {0, 0, -1}, 1)}) {
         const ReceiverImage behind = repeated({0, 0, 0}, {0, 0, -1});
