@@ -8,6 +8,7 @@
 
 #include "src/device_internals.h"
 #include "src/gl/gl.h"
+#include "src/hosting/host_scope.h"
 #include "src/shaders.h"
 
 namespace penumbra {
@@ -54,21 +55,23 @@ std::string text(GLenum name) {
     return reinterpret_cast<const char*>(glGetString(name));
 }
 
-gl::DebugLog startLog(std::function<void(LogLevel, std::string_view)>&& log) {
+gl::DebugLog startLog(std::function<void(LogLevel, std::string_view)>&& log,
+                      const std::shared_ptr<gl::Ledger>& ledger) {
     requireOpenGL45();
-    return gl::DebugLog(std::move(log));
+    return gl::DebugLog(std::move(log), ledger);
 }
 
 }  // namespace
 
 Device::Internals::Internals(DeviceOptions options)
-    : log(startLog(std::move(options.log))),
+    : log(startLog(std::move(options.log), ledger)),
       shaders(std::move(options.shaderSourceDirectory)),
       renderer(text(GL_RENDERER)),
       version(text(GL_VERSION)),
       maxTextureSize_px(integer(GL_MAX_TEXTURE_SIZE)),
       maxLayers(std::min(integer(GL_MAX_ARRAY_TEXTURE_LAYERS), integer(GL_MAX_FRAMEBUFFER_LAYERS))),
-      layerFromVertexShader(epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array")) {
+      layerFromVertexShader(epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array")),
+      keepHostState(options.keepHostState) {
     for (const char* name : {"llvmpipe", "softpipe", "SwiftShader"}) {
         isSoftware |= renderer.find(name) != std::string::npos;
     }
@@ -95,7 +98,14 @@ int Device::maxTextureSize_px() const {
 int Device::severeMessageCount() const {
     return internals_->log.severeMessageCount();
 }
+std::size_t Device::memory_bytes() const {
+    return internals_->ledger->size_bytes;
+}
+void Device::abandon() {
+    internals_->ledger->contextLost = true;
+}
 void Device::reloadShaders() {
+    const HostScope scope(*internals_);
     internals_->shaders.reload();
 }
 

@@ -2,10 +2,14 @@
 // What the library keeps for a device; hosts see penumbra::Device alone.
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include "penumbra/device.h"
 #include "src/gl/debug_log.h"
+#include "src/gl/program.h"
 #include "src/gl/shader_library.h"
 
 namespace penumbra {
@@ -13,6 +17,7 @@ namespace penumbra {
 struct Device::Internals {
     explicit Internals(DeviceOptions options);
 
+    std::shared_ptr<gl::Ledger> ledger = std::make_shared<gl::Ledger>();
     gl::DebugLog log;
     gl::ShaderLibrary shaders;
     std::string renderer;
@@ -23,6 +28,9 @@ struct Device::Internals {
     /// The vertex shader may write gl_Layer (ARB_shader_viewport_layer_array), so that one instanced draw
     /// serves many layers; else each layer is drawn by itself.
     bool layerFromVertexShader = false;
+    bool keepHostState = true;
+    std::uint64_t meshesMade = 0;
+    std::optional<gl::Program> gatherVertices;  ///< see geometry/host_buffers.cpp; made when first needed
 };
 
 }  // namespace penumbra

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 
+#include "penumbra/export.h"
 #include "penumbra/math.h"
 
 namespace penumbra {
@@ -17,9 +19,16 @@ struct Box {
     Vec3 max{-1, -1, -1};
 };
 
+/// Vectors of 32-bit floats in a GL buffer of the host's, one after the other or among other things.
+struct HostVectors {
+    std::uint32_t buffer = 0;      ///< name of a GL buffer in the current context
+    std::size_t offset_bytes = 0;  ///< of the first; a multiple of four
+    std::size_t stride_bytes = 0;  ///< from one to the next, a multiple of four; 0: tightly packed
+};
+
 /// A triangle mesh on the device, and its copy on the CPU. Move-only; frees its buffers when destroyed, for
-/// which the context it was made in must be current.
-class Mesh {
+/// which the context it was made in must be current (but see Device::abandon).
+class PENUMBRA_API Mesh {
   public:
     /// What a mesh is made of. The spans are copied.
     struct Source {
@@ -32,6 +41,23 @@ class Mesh {
     /// finite, the number of indices is no multiple of three, or the number of uvs is neither zero nor that
     /// of the positions. An empty mesh is legal and casts nothing.
     Mesh(Device& device, const Source& source);
+
+    /// A mesh that the host has on the device already.
+    struct HostSource {
+        enum class IndexType { uint16, uint32 };
+        HostVectors positions;              ///< three floats each, mesh space, metres, all finite
+        std::size_t vertexCount = 0;        ///< of positions, and of uvs
+        std::uint32_t indexBuffer = 0;      ///< three indices a triangle
+        std::size_t indexOffset_bytes = 0;  ///< a multiple of an index's size
+        std::size_t indexCount = 0;
+        IndexType indexType = IndexType::uint32;
+        HostVectors uvs;  ///< two floats each; buffer 0: none
+    };
+    /// Copies the mesh, on the device and, once, to the CPU, for which this waits; the host's buffers are not
+    /// needed afterwards. Throws as the constructor does, and where a buffer is too small. What shaders have
+    /// written must have been made visible: `glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT)`.
+    static Mesh fromBuffers(Device& device, const HostSource& source);
+
     Mesh(Mesh&&) noexcept;
     Mesh& operator=(Mesh&&) noexcept;
     ~Mesh();
@@ -40,6 +66,16 @@ class Mesh {
     /// finite.
     void deform(std::span<const Vec3> positions);
 
+    /// The same from a buffer of the host's, as skinning on the device leaves it; nothing waits. `bounds`
+    /// must contain all positions. They are not checked: one that is not finite makes its triangles vanish or
+    /// misplaces their shadow, no more. Throws Error::Kind::badArgument where the buffer is too small.
+    void deform(const HostVectors& positions, const Box& bounds);
+
+    /// Unique among the meshes of a device, and never used again.
+    std::uint64_t id() const;
+
+    /// After a `deform` from a buffer the first call fetches the positions from the device, and waits. (The
+    /// techniques that need them on the CPU for every frame say so: see "choosing a technique".)
     std::span<const Vec3> positions() const;
     std::span<const std::uint32_t> indices() const;
     std::span<const Vec2> uvs() const;
@@ -58,6 +94,7 @@ class Mesh {
     Internals& internals() const { return *internals_; }
 
   private:
+    Mesh();
     std::unique_ptr<Internals> internals_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -8,10 +9,15 @@
 #include <string>
 #include <string_view>
 
+#include "penumbra/export.h"
+
 namespace penumbra {
 
-/// Thrown by the library on bad input and on what the driver refuses; our own mistakes are asserted.
-class Error : public std::runtime_error {
+/// The one way in which the library reports failure: on bad input, and on what the driver refuses. Its
+/// message says what was wrong and what would be right. Whatever throws has changed nothing that the host can
+/// see but the contents of a VisibilityBuffer that was to be rendered, and the host's OpenGL state is
+/// restored all the same. (`std::bad_alloc` may be thrown besides; our own mistakes are asserted.)
+class PENUMBRA_API Error : public std::runtime_error {
   public:
     enum class Kind {
         noOpenGL,     ///< no current context, or one that lacks what Penumbra needs
@@ -19,6 +25,7 @@ class Error : public std::runtime_error {
         unknownName,  ///< no technique or parameter of that name
         shader,       ///< a shader does not compile or link; the message names file and line
         outOfMemory,  ///< the device has no room for a resource; the message says for what and how large
+        lostContext,  ///< the device was given up with Device::abandon
     };
     Error(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
     Kind kind() const { return kind_; }
@@ -30,22 +37,28 @@ class Error : public std::runtime_error {
 enum class LogLevel { debug, info, warning, error };
 
 struct DeviceOptions {
-    /// Called on the thread that calls the library, with messages of Penumbra and of the driver (KHR_debug).
-    /// Without it nothing is logged.
+    /// Called on the thread that calls the library, with messages of Penumbra and, where the host has set no
+    /// KHR_debug callback of its own, of the driver. It must not throw. Without it nothing is logged.
     std::function<void(LogLevel, std::string_view)> log;
 
     /// Where to read shaders from instead of the embedded copies: the `src` folder of a source tree. Empty:
     /// embedded.
     std::filesystem::path shaderSourceDirectory;
+
+    /// True: every call leaves the OpenGL state as it found it, which costs some hundred queries of state a
+    /// call. False: nothing is put back, for hosts that set all their state for each pass anyway. Neither way
+    /// does the library depend on what it finds.
+    bool keepHostState = true;
 };
 
 /// Penumbra on one OpenGL 4.5 context, which must be current on the calling thread whenever a call of the
 /// library is made on this device or on what was made with it. Several devices, each on its own context, may
 /// live in a process.
-class Device {
+class PENUMBRA_API Device {
   public:
     /// Throws Error::Kind::noOpenGL unless an OpenGL 4.5 core (or compatibility) context is current.
     explicit Device(DeviceOptions options = {});
+    /// Devices outlive the techniques made on them; meshes and visibility buffers may live longer.
     Device(Device&&) noexcept;
     Device& operator=(Device&&) noexcept;
     ~Device();
@@ -58,6 +71,15 @@ class Device {
     /// Number of driver messages of high severity, or of type error or undefined behaviour, since the device
     /// was made.
     int severeMessageCount() const;
+
+    /// What the library's buffers and textures take on this device, those of meshes, techniques and
+    /// visibility buffers included.
+    std::size_t memory_bytes() const;
+
+    /// For a context that is lost, or that was destroyed before the device: from now on OpenGL is not called
+    /// for anything made on this device. What there is can be destroyed, with any or no context current;
+    /// `render`, `deform` and making anything new throw Error::Kind::lostContext.
+    void abandon();
 
     /// Reads all shaders again (see DeviceOptions::shaderSourceDirectory). A program that no longer compiles
     /// keeps its last good version and throws Error::Kind::shader; the others are not affected.

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "penumbra/export.h"
+
 namespace penumbra {
 
 /// What a person needs to know about a parameter.
@@ -24,7 +26,7 @@ struct Range {
 };
 
 /// Receives every parameter by reference. The value found in a freshly made technique is the default.
-class ParameterVisitor {
+class PENUMBRA_API ParameterVisitor {
   public:
     virtual ~ParameterVisitor() = default;
     virtual void boolean(const ParameterInfo& info, bool& value) = 0;
@@ -39,6 +41,6 @@ class Technique;
 
 /// Sets one parameter from text. Throws Error::Kind::unknownName with the nearest names, or
 /// Error::Kind::badArgument with the legal range.
-void setParameter(Technique& technique, std::string_view name, std::string_view value);
+PENUMBRA_API void setParameter(Technique& technique, std::string_view name, std::string_view value);
 
 }  // namespace penumbra

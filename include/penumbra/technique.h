@@ -22,22 +22,41 @@ namespace penumbra {
 /// umbra. The fraction is of the light's emitting area above the surface's horizon (a distant light's and a
 /// sphere's: of the solid angle that they show), with no cosine and no distance weight. Where none of the
 /// light is above the horizon it is 0.
-class VisibilityBuffer {
+class PENUMBRA_API VisibilityBuffer {
   public:
     /// Makes its own texture: GL_R32F, or GL_RGBA16F (alpha unused) for a textured light. Both sizes >= 1.
     VisibilityBuffer(Device& device, int width_px, int height_px, bool colored = false);
+
+    /// A rectangle of a texture of the host's. What lies around it is not written.
+    struct HostTexture {
+        /// GL_TEXTURE_2D, borrowed, whose level 0 is written: any of GL_R8, R16, R16F, R32F, RG8, RG16,
+        /// RG16F, RG32F, RGBA8, RGBA16, RGBA16F, RGBA32F, RGB10_A2, R11F_G11F_B10F; at least three channels
+        /// for a textured light.
+        std::uint32_t texture = 0;
+        int x_px = 0, y_px = 0;  ///< lower left corner
+        int width_px = 0, height_px = 0;
+    };
+    /// Writes into the host's texture: without a detour where the rectangle starts at (0, 0). Throws
+    /// Error::Kind::badArgument where the texture has another format or does not contain the rectangle.
+    VisibilityBuffer(Device& device, const HostTexture& host, bool colored = false);
+
     VisibilityBuffer(VisibilityBuffer&&) noexcept;
     VisibilityBuffer& operator=(VisibilityBuffer&&) noexcept;
     ~VisibilityBuffer();
 
+    /// Follows the host's window; the texture is another afterwards. For buffers with a texture of their own.
+    void resize(int width_px, int height_px);
+
     int width_px() const;
     int height_px() const;
     bool colored() const;
-    std::uint32_t texture() const;  ///< owned by the buffer
+    std::uint32_t texture() const;  ///< owned by the buffer, or the host's
+
+    struct Internals;
+    Internals& internals() const { return *internals_; }
 
   private:
-    struct State;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<Internals> internals_;
 };
 
 struct ShadowInputs {
@@ -72,14 +91,15 @@ struct InspectedTexture {
     float white = 1;  ///< the value to show as white
 };
 
-class InspectionVisitor {
+class PENUMBRA_API InspectionVisitor {
   public:
     virtual ~InspectionVisitor() = default;
     virtual void texture(const InspectedTexture& texture) = 0;
 };
 
-/// One way to answer. Keeps what it needs between frames; destroying it frees everything.
-class Technique {
+/// One way to answer. Keeps what it needs between frames; destroying it frees everything. To be used on the
+/// thread on which its device's context is current.
+class PENUMBRA_API Technique {
   public:
     virtual ~Technique() = default;
 
@@ -87,7 +107,11 @@ class Technique {
     virtual void describe(ParameterVisitor& visitor) = 0;
 
     /// Fills `out`, which has the view's size and is colored where the light is textured. Equal inputs give
-    /// equal bits.
+    /// equal bits. The host may then sample, fetch, load or blit from the texture without a barrier of its
+    /// own.
+    ///
+    /// Once sizes and casters have settled, nothing is allocated, compiled or read back. Sizes may change
+    /// from call to call; what is allocated follows.
     virtual void render(const ShadowInputs& inputs, VisibilityBuffer& out) = 0;
 
     /// Visits the intermediate buffers of the last render.
@@ -105,10 +129,14 @@ struct TechniqueInfo {
 };
 
 /// All techniques of the catalog, in the order in which they are listed.
-std::span<const TechniqueInfo> techniqueCatalog();
+PENUMBRA_API std::span<const TechniqueInfo> techniqueCatalog();
 
 /// Makes a technique on `device`, which must outlive it. Throws Error::Kind::unknownName, listing the names
 /// there are.
-std::unique_ptr<Technique> makeTechnique(Device& device, std::string_view name);
+PENUMBRA_API std::unique_ptr<Technique> makeTechnique(Device& device, std::string_view name);
+
+/// Renders into the void and waits, so that drivers compile and everything is allocated before the first
+/// frame and not in it.
+PENUMBRA_API void prewarm(Device& device, Technique& technique, const ShadowInputs& inputs);
 
 }  // namespace penumbra

@@ -21,23 +21,31 @@ struct DepthConvention {
 
 /// The receivers: what the host's camera sees, one surface point a pixel.
 struct View {
-    int width_px = 0;   ///< of every texture below, >= 1
+    int width_px = 0;   ///< of the picture, >= 1
     int height_px = 0;  ///< >= 1
+
+    /// Lower left corner of the picture in every texture below, for hosts that draw into a part of them.
+    int x_px = 0, y_px = 0;
+
+    /// Which sample of multisampled textures is looked at. Visibility is that of the surface at the sample's
+    /// place; a host that shades every sample calls once for each.
+    int sample = 0;
 
     Mat4 viewFromWorld;  ///< rigid: rotation and translation only
     Mat4 clipFromView;   ///< perspective or orthographic, finite or infinite; must be invertible
 
-    /// GL_TEXTURE_2D with a depth format, borrowed, single-sampled, sampled with texelFetch.
+    /// GL_TEXTURE_2D or GL_TEXTURE_2D_MULTISAMPLE, borrowed, with a depth or depth-stencil format, or a float
+    /// format whose red channel holds such depths. Its sampling parameters do not matter.
     std::uint32_t depthTexture = 0;
     DepthConvention depth;
 
-    /// GL_TEXTURE_2D, borrowed, optional (0: normals are derived from the depth). RGB is the *geometric*
-    /// world-space normal of the surface, unit length, on the side that the camera sees. Interpolated shading
-    /// normals make surfaces shadow themselves near the terminator.
+    /// As the depth texture, single- or multisampled, borrowed, optional (0: normals are derived from the
+    /// depth). RGB is the *geometric* world-space normal of the surface, unit length, on the side that the
+    /// camera sees. Interpolated shading normals make surfaces shadow themselves near the terminator.
     std::uint32_t normalTexture = 0;
 
-    /// GL_TEXTURE_2D, borrowed, optional (0: everything receives). A pixel whose red channel is below 0.5
-    /// belongs to a surface that receives no shadow: its visibility is 1.
+    /// As the depth texture, single- or multisampled, borrowed, optional (0: everything receives). A pixel
+    /// whose red channel is below 0.5 belongs to a surface that receives no shadow: its visibility is 1.
     std::uint32_t receiverTexture = 0;
 };
 

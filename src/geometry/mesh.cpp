@@ -4,7 +4,9 @@
 #include <string>
 
 #include "penumbra/device.h"
+#include "src/geometry/host_buffers.h"
 #include "src/geometry/mesh_internals.h"
+#include "src/hosting/host_scope.h"
 
 namespace penumbra {
 namespace {
@@ -13,11 +15,13 @@ void require(bool condition, const std::string& message) {
     if (!condition) throw Error(Error::Kind::badArgument, "Mesh: " + message);
 }
 
+bool isFinite(const Vec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
 void requireFinite(std::span<const Vec3> positions) {
     for (std::size_t i = 0; i < positions.size(); ++i) {
-        const Vec3& p = positions[i];
-        require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
-                "position " + std::to_string(i) + " is not finite");
+        require(isFinite(positions[i]), "position " + std::to_string(i) + " is not finite");
     }
 }
 
@@ -31,24 +35,58 @@ Box boundsOf(std::span<const Vec3> positions) {
     return box;
 }
 
+void requireTriangles(std::span<const std::uint32_t> indices, std::size_t vertexCount) {
+    require(indices.size() % 3 == 0, "the number of indices is no multiple of three");
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        require(indices[i] < vertexCount, "index " + std::to_string(i) + " refers to no position");
+    }
+}
+
 }  // namespace
 
-Mesh::Mesh(Device&, const Source& source) : internals_(std::make_unique<Internals>()) {
+Mesh::Mesh() : internals_(std::make_unique<Internals>()) {}
+
+Mesh::Mesh(Device& device, const Source& source) : Mesh() {
+    requireContext(device.internals());
     requireFinite(source.positions);
-    require(source.indices.size() % 3 == 0, "the number of indices is no multiple of three");
+    requireTriangles(source.indices, source.positions.size());
     require(source.uvs.empty() || source.uvs.size() == source.positions.size(),
             "the number of uvs is not that of the positions");
-    for (std::size_t i = 0; i < source.indices.size(); ++i) {
-        require(source.indices[i] < source.positions.size(),
-                "index " + std::to_string(i) + " refers to no position");
-    }
+    const gl::LedgerScope scope(device.internals().ledger);
+    internals_->enter(device.internals());
     internals_->positions.assign(source.positions.begin(), source.positions.end());
     internals_->indices.assign(source.indices.begin(), source.indices.end());
     internals_->uvs.assign(source.uvs.begin(), source.uvs.end());
     if (!source.indices.empty()) internals_->bounds = boundsOf(source.positions);
-    internals_->positionBuffer = gl::Buffer(std::as_bytes(positions()), "mesh positions");
-    internals_->indexBuffer = gl::Buffer(std::as_bytes(indices()), "mesh indices");
-    if (!source.uvs.empty()) internals_->uvBuffer = gl::Buffer(std::as_bytes(uvs()), "mesh uvs");
+    internals_->positionBuffer = gl::Buffer(std::as_bytes(source.positions), "mesh positions");
+    internals_->indexBuffer = gl::Buffer(std::as_bytes(source.indices), "mesh indices");
+    if (!source.uvs.empty()) internals_->uvBuffer = gl::Buffer(std::as_bytes(source.uvs), "mesh uvs");
+}
+
+Mesh Mesh::fromBuffers(Device& device, const HostSource& source) {
+    const HostScope scope(device.internals());
+    Mesh mesh;
+    Internals& internals = *mesh.internals_;
+    internals.enter(device.internals());
+    internals.positions.resize(source.vertexCount);
+    internals.indices.resize(source.indexCount);
+    internals.positionBuffer = gl::Buffer(source.vertexCount * sizeof(Vec3), "mesh positions");
+    internals.indexBuffer = gl::Buffer(source.indexCount * sizeof(std::uint32_t), "mesh indices");
+    gatherVectors(device.internals(), source.positions, source.vertexCount, 3, internals.positionBuffer,
+                  "positions");
+    gatherIndices(device.internals(), source, internals.indexBuffer);
+    internals.positionBuffer.read(std::as_writable_bytes(std::span(internals.positions)));
+    internals.indexBuffer.read(std::as_writable_bytes(std::span(internals.indices)));
+    if (source.uvs.buffer != 0) {
+        internals.uvs.resize(source.vertexCount);
+        internals.uvBuffer = gl::Buffer(source.vertexCount * sizeof(Vec2), "mesh uvs");
+        gatherVectors(device.internals(), source.uvs, source.vertexCount, 2, internals.uvBuffer, "uvs");
+        internals.uvBuffer.read(std::as_writable_bytes(std::span(internals.uvs)));
+    }
+    requireFinite(internals.positions);
+    requireTriangles(internals.indices, internals.positions.size());
+    if (!internals.indices.empty()) internals.bounds = boundsOf(internals.positions);
+    return mesh;
 }
 
 Mesh::Mesh(Mesh&&) noexcept = default;
@@ -56,16 +94,38 @@ Mesh& Mesh::operator=(Mesh&&) noexcept = default;
 Mesh::~Mesh() = default;
 
 void Mesh::deform(std::span<const Vec3> positions) {
+    requireContext(*internals_->device);
     require(positions.size() == internals_->positions.size(),
             "deform: as many positions as at first are needed");
     requireFinite(positions);
     std::ranges::copy(positions, internals_->positions.begin());
+    internals_->positionsAreStale = false;
     if (!internals_->indices.empty()) internals_->bounds = boundsOf(positions);
     if (!positions.empty()) internals_->positionBuffer.write(std::as_bytes(positions));
     ++internals_->revision;
 }
 
+void Mesh::deform(const HostVectors& positions, const Box& bounds) {
+    requireContext(*internals_->device);
+    require(isFinite(bounds.min) && isFinite(bounds.max) && bounds.min.x <= bounds.max.x &&
+                bounds.min.y <= bounds.max.y && bounds.min.z <= bounds.max.z,
+            "deform: the bounds are not finite or empty");
+    const HostScope scope(*internals_->device);
+    gatherVectors(*internals_->device, positions, internals_->positions.size(), 3, internals_->positionBuffer,
+                  "deform");
+    internals_->positionsAreStale = true;
+    if (!internals_->indices.empty()) internals_->bounds = bounds;
+    ++internals_->revision;
+}
+
+std::uint64_t Mesh::id() const {
+    return internals_->id;
+}
 std::span<const Vec3> Mesh::positions() const {
+    if (internals_->positionsAreStale && !internals_->device->ledger->contextLost) {
+        internals_->positionBuffer.read(std::as_writable_bytes(std::span(internals_->positions)));
+        internals_->positionsAreStale = false;
+    }
     return internals_->positions;
 }
 std::span<const std::uint32_t> Mesh::indices() const {

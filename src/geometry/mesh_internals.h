@@ -6,19 +6,28 @@
 #include <vector>
 
 #include "penumbra/caster.h"
+#include "src/device_internals.h"
 #include "src/geometry/edge_mesh.h"
 #include "src/gl/buffer.h"
 
 namespace penumbra {
 
 struct Mesh::Internals {
+    Device::Internals* device = nullptr;
+    std::uint64_t id = 0;
     std::vector<Vec3> positions;
+    bool positionsAreStale = false;  ///< newer ones are on the device
     std::vector<std::uint32_t> indices;
     std::vector<Vec2> uvs;
     Box bounds;
     std::uint64_t revision = 0;
     gl::Buffer positionBuffer, uvBuffer, indexBuffer;
     std::unique_ptr<const EdgeMesh> edges;  ///< see edgesOf
+
+    void enter(Device::Internals& owner) {
+        device = &owner;
+        id = ++owner.meshesMade;
+    }
 };
 
 }  // namespace penumbra

@@ -16,10 +16,12 @@ GLuint createBuffer() {
 
 Buffer::Buffer(std::size_t size_bytes, std::string_view text)
     : handle_(createBuffer()), size_bytes_(size_bytes) {
-    glNamedBufferStorage(name(), GLsizeiptr(std::max<std::size_t>(size_bytes, 16)), nullptr,
-                         GL_DYNAMIC_STORAGE_BIT);
-    label(GL_BUFFER, name(), text);
+    const std::size_t allocated_bytes = std::max<std::size_t>(size_bytes, 16);
+    forgetErrors();
+    glNamedBufferStorage(name(), GLsizeiptr(allocated_bytes), nullptr, GL_DYNAMIC_STORAGE_BIT);
     checkAllocated(text);
+    handle_.enter(allocated_bytes);
+    label(GL_BUFFER, name(), text);
 }
 
 Buffer::Buffer(std::span<const std::byte> bytes, std::string_view text) : Buffer(bytes.size(), text) {

@@ -3,9 +3,11 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <string_view>
 
 #include "penumbra/device.h"
+#include "src/gl/gl.h"
 
 namespace penumbra::gl {
 
@@ -13,7 +15,7 @@ namespace penumbra::gl {
 /// has no callback of its own; stays at its address while it is installed.
 class DebugLog {
   public:
-    explicit DebugLog(std::function<void(LogLevel, std::string_view)> log);
+    DebugLog(std::function<void(LogLevel, std::string_view)> log, std::shared_ptr<const Ledger> ledger);
     DebugLog(const DebugLog&) = delete;
     DebugLog& operator=(const DebugLog&) = delete;
     ~DebugLog();
@@ -27,6 +29,7 @@ class DebugLog {
   private:
     std::function<void(LogLevel, std::string_view)> log_;
     std::atomic<int> severeMessages_ = 0;
+    std::shared_ptr<const Ledger> ledger_;
     bool installed_ = false;
 };
 

@@ -6,9 +6,34 @@
 #include "penumbra/device.h"
 
 namespace penumbra::gl {
+namespace {
+
+std::shared_ptr<Ledger>& threadsLedger() {
+    thread_local std::shared_ptr<Ledger> ledger;
+    return ledger;
+}
+
+}  // namespace
+
+LedgerScope::LedgerScope(std::shared_ptr<Ledger> ledger)
+    : outer_(std::exchange(threadsLedger(), std::move(ledger))) {}
+
+LedgerScope::~LedgerScope() {
+    threadsLedger() = std::move(outer_);
+}
+
+const std::shared_ptr<Ledger>& LedgerScope::current() {
+    return threadsLedger();
+}
 
 void label(GLenum kind, GLuint name, std::string_view text) {
     if (!text.empty()) glObjectLabel(kind, name, GLsizei(text.size()), text.data());
+}
+
+void forgetErrors() {
+    // A lost context may answer with errors for ever.
+    for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {
+    }
 }
 
 void checkAllocated(std::string_view what) {

@@ -4,33 +4,75 @@
 
 #include <epoxy/gl.h>
 
+#include <cstddef>
+#include <memory>
 #include <string_view>
 #include <utility>
 
 namespace penumbra::gl {
+
+/// What the objects of a device have in common: the room they take, and whether their context still lives.
+struct Ledger {
+    std::size_t size_bytes = 0;
+    bool contextLost = false;  ///< names mean nothing any more, and OpenGL must not be called for them
+};
+
+/// While it lives, objects made on this thread are entered in `ledger`. The thread's current ledger goes with
+/// its current context: like that, it is no argument of every constructor.
+class LedgerScope {
+  public:
+    explicit LedgerScope(std::shared_ptr<Ledger> ledger);
+    LedgerScope(const LedgerScope&) = delete;
+    LedgerScope& operator=(const LedgerScope&) = delete;
+    ~LedgerScope();
+
+    /// Null outside of every scope.
+    static const std::shared_ptr<Ledger>& current();
+
+  private:
+    std::shared_ptr<Ledger> outer_;
+};
 
 /// A GL object name that is deleted with its owner. Move-only; 0 is no object.
 template <void (*Delete)(GLuint)>
 class Handle {
   public:
     Handle() = default;
-    explicit Handle(GLuint name) : name_(name) {}
-    Handle(Handle&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    explicit Handle(GLuint name) : name_(name), ledger_(LedgerScope::current()) {}
+    Handle(Handle&& other) noexcept
+        : name_(std::exchange(other.name_, 0)),
+          size_bytes_(std::exchange(other.size_bytes_, 0)),
+          ledger_(std::move(other.ledger_)) {}
     Handle& operator=(Handle&& other) noexcept {
         std::swap(name_, other.name_);
+        std::swap(size_bytes_, other.size_bytes_);
+        std::swap(ledger_, other.ledger_);
         return *this;
     }
     ~Handle() {
-        if (name_ != 0) Delete(name_);
+        if (ledger_) ledger_->size_bytes -= size_bytes_;
+        if (name_ != 0 && !(ledger_ && ledger_->contextLost)) Delete(name_);
     }
     GLuint name() const { return name_; }
 
+    /// Enters the room that the object takes on the device; once.
+    void enter(std::size_t size_bytes) {
+        if (!ledger_) return;
+        size_bytes_ = size_bytes;
+        ledger_->size_bytes += size_bytes;
+    }
+
   private:
     GLuint name_ = 0;
+    std::size_t size_bytes_ = 0;
+    std::shared_ptr<Ledger> ledger_;
 };
 
 /// Names an object for debuggers and driver messages: "smoothies/depth".
 void label(GLenum kind, GLuint name, std::string_view text);
+
+/// Takes errors that somebody else has left behind, so that `checkAllocated` sees what follows alone.
+void forgetErrors();
 
 /// Throws Error::Kind::outOfMemory, naming `what`, if the allocation just made failed.
 void checkAllocated(std::string_view what);

@@ -26,10 +26,6 @@ PassTimers::Scope::Scope(PassTimers& timers, std::string_view name) : group_(nam
     // A pair still in flight after a whole turn of the ring is overwritten: its time is lost, nobody waits.
     Pair& pair = pass.ring[std::size_t(pass.next)];
     pass.next = (pass.next + 1) % framesInFlight;
-    if (pair.begin.name() == 0) {
-        pair.begin = Handle<deleteQuery>(createQuery());
-        pair.end = Handle<deleteQuery>(createQuery());
-    }
     glQueryCounter(pair.begin.name(), GL_TIMESTAMP);
     pair.pending = true;
     end_ = pair.end.name();
@@ -62,8 +58,13 @@ void PassTimers::collect(Pass& pass) {
 PassTimers::Pass& PassTimers::find(std::string_view name) {
     const auto found = std::ranges::find(passes_, name, &Pass::name);
     if (found != passes_.end()) return *found;
-    passes_.emplace_back().name = name;
-    return passes_.back();
+    Pass& pass = passes_.emplace_back();
+    pass.name = name;
+    for (Pair& pair : pass.ring) {
+        pair.begin = Handle<deleteQuery>(createQuery());
+        pair.end = Handle<deleteQuery>(createQuery());
+    }
+    return pass;
 }
 
 }  // namespace penumbra::gl

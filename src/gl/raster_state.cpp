@@ -31,12 +31,8 @@ void beginPass(GLuint framebuffer, const RasterState& state) {
         glBlendFunc(state.blendSource, state.blendDestination);
     }
 
-    for (const GLenum unused :
-         {GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_RASTERIZER_DISCARD, GL_POLYGON_OFFSET_FILL, GL_COLOR_LOGIC_OP,
-          GL_FRAMEBUFFER_SRGB, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_MASK, GL_PRIMITIVE_RESTART,
-          GL_PRIMITIVE_RESTART_FIXED_INDEX}) {
-        glDisable(unused);
-    }
+    glDisable(GL_SCISSOR_TEST);
+    for (const GLenum unused : unusedCapabilities) glDisable(unused);
 }
 
 }  // namespace penumbra::gl

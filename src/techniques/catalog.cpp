@@ -5,6 +5,7 @@
 #include <string>
 
 #include "penumbra/technique.h"
+#include "src/hosting/hosted_technique.h"
 #include "src/techniques/exact_visibility/exact.h"
 #include "src/techniques/light_sampling/adaptive.h"
 #include "src/techniques/light_sampling/uniform.h"
@@ -71,7 +72,7 @@ std::span<const TechniqueInfo> techniqueCatalog() {
 std::unique_ptr<Technique> makeTechnique(Device& device, std::string_view name) {
     std::string names;
     for (const Entry& entry : entries) {
-        if (entry.info.name == name) return entry.make(device);
+        if (entry.info.name == name) return std::make_unique<HostedTechnique>(device, entry.make);
         names += (names.empty() ? "" : ", ") + std::string(entry.info.name);
     }
     throw Error(Error::Kind::unknownName,

@@ -1,23 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/techniques/light_sampling/input_key.h"
 
-#include <algorithm>
-
 namespace penumbra {
-namespace {
-
-/// A mesh may be replaced by another at the same address, with buffers of the same names: some of its
-/// positions and indices tell them apart.
-constexpr std::size_t probes = 64;
-
-template <typename T>
-void appendProbes(std::vector<std::byte>& key, std::span<const T> values) {
-    appendBytes(key, values.size());
-    const std::size_t step = std::max<std::size_t>(1, values.size() / probes);
-    for (std::size_t i = 0; i < values.size(); i += step) appendBytes(key, values[i]);
-}
-
-}  // namespace
 
 bool appendInputs(std::vector<std::byte>& key, const ShadowInputs& inputs) {
     const View& view = inputs.view;
@@ -36,12 +20,8 @@ bool appendInputs(std::vector<std::byte>& key, const ShadowInputs& inputs) {
     appendBytes(key, light.radianceTexture);
     bool isKnown = true;
     for (const Caster& caster : inputs.casters) {
-        appendBytes(key, caster.mesh);
+        appendBytes(key, caster.mesh->id());
         appendBytes(key, caster.mesh->revision());
-        appendBytes(key, caster.mesh->positionBuffer());
-        appendBytes(key, caster.mesh->bounds());
-        appendProbes(key, caster.mesh->positions());
-        appendProbes(key, caster.mesh->indices());
         appendBytes(key, caster.worldFromMesh);
         appendBytes(key, caster.casts);
         appendBytes(key, caster.receives);

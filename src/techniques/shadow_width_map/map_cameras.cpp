@@ -35,22 +35,6 @@ double penumbraReach(const AreaLight& light, const LightSpaceScene& scene, const
     return std::min(reach, widestMargin * window);
 }
 
-/// A cheap fingerprint of a mesh, since a freed one's address and buffer may serve another.
-void appendMesh(std::vector<double>& key, const Mesh& mesh) {
-    const std::span<const Vec3> positions = mesh.positions();
-    const std::span<const std::uint32_t> indices = mesh.indices();
-    key.insert(key.end(), {double(mesh.positionBuffer()), double(mesh.revision()), double(positions.size()),
-                           double(indices.size())});
-    constexpr std::size_t probes = 16;
-    for (std::size_t i = 0; i < probes && !positions.empty(); ++i) {
-        const Vec3& p = positions[i * (positions.size() - 1) / (probes - 1)];
-        key.insert(key.end(), {double(p.x), double(p.y), double(p.z)});
-    }
-    for (std::size_t i = 0; i < probes && !indices.empty(); ++i) {
-        key.push_back(double(indices[i * (indices.size() - 1) / (probes - 1)]));
-    }
-}
-
 void appendMatrix(std::vector<double>& key, const glm::dmat4& matrix) {
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) key.push_back(matrix[column][row]);
@@ -80,7 +64,7 @@ void appendMapKey(std::vector<double>& key, const ShadowInputs& inputs, const Li
                    {double(caster.casts), double(caster.receives), double(caster.alphaMask.texture),
                     double(caster.alphaMask.factor), double(caster.alphaMask.cutoff)});
         appendMatrix(key, scene.lightFromMesh[i]);
-        appendMesh(key, *caster.mesh);
+        key.insert(key.end(), {double(caster.mesh->id()), double(caster.mesh->revision())});
     }
     for (const LightCamera& camera : cameras) {
         appendMatrix(key, camera.faceFromLight);

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/hosting/host_state.h"
+
+#include <algorithm>
+
+namespace penumbra {
+namespace {
+
+struct TextureTarget {
+    GLenum target, binding;
+};
+constexpr std::array<TextureTarget, 11> targets = {{
+    {GL_TEXTURE_1D, GL_TEXTURE_BINDING_1D},
+    {GL_TEXTURE_1D_ARRAY, GL_TEXTURE_BINDING_1D_ARRAY},
+    {GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D},
+    {GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_ARRAY},
+    {GL_TEXTURE_2D_MULTISAMPLE, GL_TEXTURE_BINDING_2D_MULTISAMPLE},
+    {GL_TEXTURE_2D_MULTISAMPLE_ARRAY, GL_TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY},
+    {GL_TEXTURE_3D, GL_TEXTURE_BINDING_3D},
+    {GL_TEXTURE_BUFFER, GL_TEXTURE_BINDING_BUFFER},
+    {GL_TEXTURE_CUBE_MAP, GL_TEXTURE_BINDING_CUBE_MAP},
+    {GL_TEXTURE_CUBE_MAP_ARRAY, GL_TEXTURE_BINDING_CUBE_MAP_ARRAY},
+    {GL_TEXTURE_RECTANGLE, GL_TEXTURE_BINDING_RECTANGLE},
+}};
+
+struct PixelStore {
+    GLenum name;
+    GLint standard;
+};
+constexpr std::array<PixelStore, 16> pixelStores = {{
+    {GL_UNPACK_ALIGNMENT, 4},
+    {GL_UNPACK_ROW_LENGTH, 0},
+    {GL_UNPACK_IMAGE_HEIGHT, 0},
+    {GL_UNPACK_SKIP_ROWS, 0},
+    {GL_UNPACK_SKIP_PIXELS, 0},
+    {GL_UNPACK_SKIP_IMAGES, 0},
+    {GL_UNPACK_SWAP_BYTES, 0},
+    {GL_UNPACK_LSB_FIRST, 0},
+    {GL_PACK_ALIGNMENT, 4},
+    {GL_PACK_ROW_LENGTH, 0},
+    {GL_PACK_IMAGE_HEIGHT, 0},
+    {GL_PACK_SKIP_ROWS, 0},
+    {GL_PACK_SKIP_PIXELS, 0},
+    {GL_PACK_SKIP_IMAGES, 0},
+    {GL_PACK_SWAP_BYTES, 0},
+    {GL_PACK_LSB_FIRST, 0},
+}};
+
+constexpr GLenum alphaTest = 0x0BC0;  // GL_ALPHA_TEST: compatibility contexts alone have it
+
+GLint integer(GLenum name) {
+    GLint value = 0;
+    glGetIntegerv(name, &value);
+    return value;
+}
+
+GLint integer(GLenum name, GLuint index) {
+    GLint value = 0;
+    glGetIntegeri_v(name, index, &value);
+    return value;
+}
+
+void enable(GLenum capability, bool on) {
+    on ? glEnable(capability) : glDisable(capability);
+}
+
+void enable(GLenum capability, GLuint index, bool on) {
+    on ? glEnablei(capability, index) : glDisablei(capability, index);
+}
+
+bool hasAlphaTest() {
+    return (integer(GL_CONTEXT_PROFILE_MASK) & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
+}
+
+}  // namespace
+
+void setKnownState() {
+    gl::beginPass(0, {});
+    glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
+    if (hasAlphaTest()) glDisable(alphaTest);
+    for (const PixelStore& store : pixelStores) glPixelStorei(store.name, store.standard);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    // A sampler object would overrule our textures' own filters.
+    glBindSamplers(0, textureUnits, nullptr);
+}
+
+HostState::HostState() {
+    saveObjects();
+    saveRaster();
+    saveUnits();
+}
+
+HostState::~HostState() {
+    restoreUnits();
+    restoreRaster();
+    restoreObjects();
+}
+
+void HostState::saveObjects() {
+    program_ = integer(GL_CURRENT_PROGRAM);
+    vertexArray_ = integer(GL_VERTEX_ARRAY_BINDING);
+    drawFramebuffer_ = integer(GL_DRAW_FRAMEBUFFER_BINDING);
+    drawIndirect_ = integer(GL_DRAW_INDIRECT_BUFFER_BINDING);
+    dispatchIndirect_ = integer(GL_DISPATCH_INDIRECT_BUFFER_BINDING);
+    pixelPack_ = integer(GL_PIXEL_PACK_BUFFER_BINDING);
+    pixelUnpack_ = integer(GL_PIXEL_UNPACK_BUFFER_BINDING);
+    storage_ = integer(GL_SHADER_STORAGE_BUFFER_BINDING);
+    uniform_ = integer(GL_UNIFORM_BUFFER_BINDING);
+    static_assert(pixelStores == penumbra::pixelStores.size());
+    for (std::size_t i = 0; i < pixelStores; ++i) pixelStore_[i] = integer(penumbra::pixelStores[i].name);
+}
+
+void HostState::restoreObjects() const {
+    glUseProgram(GLuint(program_));
+    glBindVertexArray(GLuint(vertexArray_));
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(drawFramebuffer_));
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, GLuint(drawIndirect_));
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, GLuint(dispatchIndirect_));
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, GLuint(pixelPack_));
+    glBindBuffer(GL_PIXEL_UNPACK_BUFFER, GLuint(pixelUnpack_));
+    glBindBuffer(GL_SHADER_STORAGE_BUFFER, GLuint(storage_));
+    glBindBuffer(GL_UNIFORM_BUFFER, GLuint(uniform_));
+    for (std::size_t i = 0; i < pixelStores; ++i)
+        glPixelStorei(penumbra::pixelStores[i].name, pixelStore_[i]);
+}
+
+void HostState::saveRaster() {
+    for (std::size_t i = 0; i < unused_.size(); ++i) unused_[i] = glIsEnabled(gl::unusedCapabilities[i]);
+    depthTest_ = glIsEnabled(GL_DEPTH_TEST);
+    depthClamp_ = glIsEnabled(GL_DEPTH_CLAMP);
+    cull_ = glIsEnabled(GL_CULL_FACE);
+    isCompatibilityProfile_ = hasAlphaTest();
+    if (isCompatibilityProfile_) alphaTest_ = glIsEnabled(alphaTest);
+    cullFace_ = integer(GL_CULL_FACE_MODE);
+    frontFace_ = integer(GL_FRONT_FACE);
+    depthFunction_ = integer(GL_DEPTH_FUNC);
+    clipOrigin_ = integer(GL_CLIP_ORIGIN);
+    clipDepth_ = integer(GL_CLIP_DEPTH_MODE);
+    provokingVertex_ = integer(GL_PROVOKING_VERTEX);
+    glGetIntegerv(GL_POLYGON_MODE, polygonMode_.data());
+    glGetBooleanv(GL_DEPTH_WRITEMASK, &depthMask_);
+
+    viewportCount_ = std::min(mostViewports, std::size_t(integer(GL_MAX_VIEWPORTS)));
+    for (GLuint i = 0; i < viewportCount_; ++i) {
+        Viewport& viewport = viewports_[i];
+        glGetFloati_v(GL_VIEWPORT, i, viewport.rectangle.data());
+        glGetDoublei_v(GL_DEPTH_RANGE, i, viewport.depthRange.data());
+        viewport.scissor = glIsEnabledi(GL_SCISSOR_TEST, i);
+    }
+    drawBufferCount_ = std::min(mostDrawBuffers, std::size_t(integer(GL_MAX_DRAW_BUFFERS)));
+    for (GLuint i = 0; i < drawBufferCount_; ++i) {
+        DrawBuffer& buffer = drawBuffers_[i];
+        glGetBooleani_v(GL_COLOR_WRITEMASK, i, buffer.colorMask.data());
+        buffer.blend = glIsEnabledi(GL_BLEND, i);
+        buffer.equationRgb = integer(GL_BLEND_EQUATION_RGB, i);
+        buffer.equationAlpha = integer(GL_BLEND_EQUATION_ALPHA, i);
+        buffer.sourceRgb = integer(GL_BLEND_SRC_RGB, i);
+        buffer.sourceAlpha = integer(GL_BLEND_SRC_ALPHA, i);
+        buffer.destinationRgb = integer(GL_BLEND_DST_RGB, i);
+        buffer.destinationAlpha = integer(GL_BLEND_DST_ALPHA, i);
+    }
+}
+
+void HostState::restoreRaster() const {
+    for (std::size_t i = 0; i < unused_.size(); ++i) enable(gl::unusedCapabilities[i], unused_[i]);
+    enable(GL_DEPTH_TEST, depthTest_);
+    enable(GL_DEPTH_CLAMP, depthClamp_);
+    enable(GL_CULL_FACE, cull_);
+    if (isCompatibilityProfile_) enable(alphaTest, alphaTest_);
+    glCullFace(GLenum(cullFace_));
+    glFrontFace(GLenum(frontFace_));
+    glDepthFunc(GLenum(depthFunction_));
+    glClipControl(GLenum(clipOrigin_), GLenum(clipDepth_));
+    glProvokingVertex(GLenum(provokingVertex_));
+    if (isCompatibilityProfile_) {
+        glPolygonMode(GL_FRONT, GLenum(polygonMode_[0]));
+        glPolygonMode(GL_BACK, GLenum(polygonMode_[1]));
+    } else {
+        glPolygonMode(GL_FRONT_AND_BACK, GLenum(polygonMode_[0]));
+    }
+    glDepthMask(depthMask_);
+
+    for (GLuint i = 0; i < viewportCount_; ++i) {
+        const Viewport& viewport = viewports_[i];
+        glViewportIndexedfv(i, viewport.rectangle.data());
+        glDepthRangeIndexed(i, viewport.depthRange[0], viewport.depthRange[1]);
+        enable(GL_SCISSOR_TEST, i, viewport.scissor);
+    }
+    for (GLuint i = 0; i < drawBufferCount_; ++i) {
+        const DrawBuffer& buffer = drawBuffers_[i];
+        const auto& mask = buffer.colorMask;
+        glColorMaski(i, mask[0], mask[1], mask[2], mask[3]);
+        enable(GL_BLEND, i, buffer.blend);
+        glBlendEquationSeparatei(i, GLenum(buffer.equationRgb), GLenum(buffer.equationAlpha));
+        glBlendFuncSeparatei(i, GLenum(buffer.sourceRgb), GLenum(buffer.destinationRgb),
+                             GLenum(buffer.sourceAlpha), GLenum(buffer.destinationAlpha));
+    }
+}
+
+void HostState::saveUnits() {
+    static_assert(textureTargets == targets.size());
+    activeTexture_ = integer(GL_ACTIVE_TEXTURE);
+    for (GLuint unit = 0; unit < textureUnits; ++unit) {
+        glActiveTexture(GL_TEXTURE0 + unit);
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            textureUnits_[unit].textures[i] = integer(targets[i].binding);
+        }
+        textureUnits_[unit].sampler = integer(GL_SAMPLER_BINDING);
+    }
+    glActiveTexture(GLenum(activeTexture_));
+    for (GLuint unit = 0; unit < imageUnits; ++unit) {
+        imageUnits_[unit] = {integer(GL_IMAGE_BINDING_NAME, unit),    integer(GL_IMAGE_BINDING_LEVEL, unit),
+                             integer(GL_IMAGE_BINDING_LAYERED, unit), integer(GL_IMAGE_BINDING_LAYER, unit),
+                             integer(GL_IMAGE_BINDING_ACCESS, unit),  integer(GL_IMAGE_BINDING_FORMAT, unit)};
+    }
+    const auto saveBlocks = [](auto& blocks, GLenum binding, GLenum start, GLenum size) {
+        for (GLuint i = 0; i < blocks.size(); ++i) {
+            blocks[i].buffer = integer(binding, i);
+            glGetInteger64i_v(start, i, &blocks[i].offset);
+            glGetInteger64i_v(size, i, &blocks[i].size);
+        }
+    };
+    saveBlocks(storageBlocks_, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
+               GL_SHADER_STORAGE_BUFFER_SIZE);
+    saveBlocks(uniformBlocks_, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE);
+}
+
+void HostState::restoreUnits() const {
+    for (GLuint unit = 0; unit < textureUnits; ++unit) {
+        glBindTextureUnit(unit, 0);  // all targets
+        for (const GLint texture : textureUnits_[unit].textures) {
+            if (texture != 0) glBindTextureUnit(unit, GLuint(texture));
+        }
+        glBindSampler(unit, GLuint(textureUnits_[unit].sampler));
+    }
+    for (GLuint unit = 0; unit < imageUnits; ++unit) {
+        const ImageUnit& image = imageUnits_[unit];
+        glBindImageTexture(unit, GLuint(image.texture), image.level, GLboolean(image.layered), image.layer,
+                           GLenum(image.access), GLenum(image.format));
+    }
+    const auto restoreBlocks = [](const auto& blocks, GLenum target) {
+        for (GLuint i = 0; i < blocks.size(); ++i) {
+            const BlockBinding& block = blocks[i];
+            if (block.size == 0) {
+                glBindBufferBase(target, i, GLuint(block.buffer));
+            } else {
+                glBindBufferRange(target, i, GLuint(block.buffer), GLintptr(block.offset),
+                                  GLsizeiptr(block.size));
+            }
+        }
+    };
+    restoreBlocks(storageBlocks_, GL_SHADER_STORAGE_BUFFER);
+    restoreBlocks(uniformBlocks_, GL_UNIFORM_BUFFER);
+}
+
+}  // namespace penumbra

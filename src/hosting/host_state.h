@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Living in somebody else's context: nothing of its state is trusted, everything is put back. The list of
+// what that is, for people to read, is in docs/manual/state.md; tests/host_state_test.cpp proves it.
+#pragma once
+
+#include <array>
+
+#include "src/gl/raster_state.h"
+
+namespace penumbra {
+
+/// Bindings that passes may use. OpenGL 4.5 has at least this many of each.
+inline constexpr GLuint textureUnits = 16;
+inline constexpr GLuint imageUnits = 8;
+inline constexpr GLuint storageBlocks = 8;
+inline constexpr GLuint uniformBlocks = 8;
+
+/// The state in which the library's own code starts: OpenGL's defaults wherever `gl::beginPass` does not
+/// state what a pass wants.
+void setKnownState();
+
+/// Remembers, at construction, all the state that the library may change; puts it back when destroyed.
+class HostState {
+  public:
+    HostState();
+    HostState(const HostState&) = delete;
+    HostState& operator=(const HostState&) = delete;
+    ~HostState();
+
+  private:
+    static constexpr std::size_t mostViewports = 16;
+    static constexpr std::size_t mostDrawBuffers = 8;
+    static constexpr std::size_t textureTargets = 11;
+    static constexpr std::size_t pixelStores = 16;
+
+    struct Viewport {
+        std::array<GLfloat, 4> rectangle;
+        std::array<GLdouble, 2> depthRange;
+        bool scissor;
+    };
+    struct DrawBuffer {
+        std::array<GLboolean, 4> colorMask;
+        bool blend;
+        GLint equationRgb, equationAlpha, sourceRgb, sourceAlpha, destinationRgb, destinationAlpha;
+    };
+    struct TextureUnit {
+        std::array<GLint, textureTargets> textures;
+        GLint sampler;
+    };
+    struct ImageUnit {
+        GLint texture, level, layered, layer, access, format;
+    };
+    struct BlockBinding {
+        GLint buffer;
+        GLint64 offset, size;
+    };
+
+    void saveObjects();
+    void saveRaster();
+    void saveUnits();
+    void restoreObjects() const;
+    void restoreRaster() const;
+    void restoreUnits() const;
+
+    GLint program_, vertexArray_, drawFramebuffer_;
+    GLint drawIndirect_, dispatchIndirect_, pixelPack_, pixelUnpack_, storage_, uniform_;
+    std::array<GLint, pixelStores> pixelStore_;
+
+    std::array<bool, gl::unusedCapabilities.size()> unused_;
+    bool depthTest_, depthClamp_, cull_, alphaTest_ = false;
+    GLint cullFace_, frontFace_, depthFunction_, clipOrigin_, clipDepth_, provokingVertex_;
+    std::array<GLint, 2> polygonMode_;  // compatibility contexts tell front and back apart
+    GLboolean depthMask_;
+    std::size_t viewportCount_, drawBufferCount_;
+    std::array<Viewport, mostViewports> viewports_;
+    std::array<DrawBuffer, mostDrawBuffers> drawBuffers_;
+    bool isCompatibilityProfile_;
+
+    GLint activeTexture_;
+    std::array<TextureUnit, textureUnits> textureUnits_;
+    std::array<ImageUnit, imageUnits> imageUnits_;
+    std::array<BlockBinding, storageBlocks> storageBlocks_;
+    std::array<BlockBinding, uniformBlocks> uniformBlocks_;
+};
+
+}  // namespace penumbra

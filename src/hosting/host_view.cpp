@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/hosting/host_view.h"
+
+#include <string>
+
+#include "src/techniques/common/glm_types.h"
+
+namespace penumbra {
+namespace {
+
+void require(bool condition, const std::string& message) {
+    if (!condition) throw Error(Error::Kind::badArgument, "View: " + message);
+}
+
+GLint levelParameter(GLuint texture, GLenum name) {
+    GLint value = 0;
+    glGetTextureLevelParameteriv(texture, 0, name, &value);
+    return value;
+}
+
+GLint targetOf(GLuint texture) {
+    GLint target = 0;
+    glGetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
+    return target;
+}
+
+bool isMultisampled(GLuint texture) {
+    return targetOf(texture) == GL_TEXTURE_2D_MULTISAMPLE;
+}
+
+glm::ivec2 sizeOf(GLuint texture) {
+    return {levelParameter(texture, GL_TEXTURE_WIDTH), levelParameter(texture, GL_TEXTURE_HEIGHT)};
+}
+
+void requireTexture(const char* name, GLuint texture, const View& view) {
+    require(glIsTexture(texture),
+            std::string(name) + " " + std::to_string(texture) + " is no texture of the current context");
+    const GLint target = targetOf(texture);
+    require(target == GL_TEXTURE_2D || target == GL_TEXTURE_2D_MULTISAMPLE,
+            std::string(name) + " is neither GL_TEXTURE_2D nor GL_TEXTURE_2D_MULTISAMPLE");
+    const glm::ivec2 size_px = sizeOf(texture);
+    require(view.x_px >= 0 && view.y_px >= 0 && view.width_px <= size_px.x - view.x_px &&
+                view.height_px <= size_px.y - view.y_px,
+            std::string(name) + " is " + std::to_string(size_px.x) + "x" + std::to_string(size_px.y) +
+                " and does not contain " + std::to_string(view.width_px) + "x" +
+                std::to_string(view.height_px) + " pixels from (" + std::to_string(view.x_px) + ", " +
+                std::to_string(view.y_px) + ")");
+    require(target == GL_TEXTURE_2D ||
+                (view.sample >= 0 && view.sample < levelParameter(texture, GL_TEXTURE_SAMPLES)),
+            std::string(name) + " has no sample " + std::to_string(view.sample));
+}
+
+/// The view of a camera that has its pixels' centres where this one has a sample at `place` of the pixel, in
+/// [0, 1]: a shift of clip space.
+Mat4 withSampleInTheCenter(const Mat4& clipFromView, const glm::dvec2& place, const View& view) {
+    const glm::dvec2 shift = 2.0 * (place - 0.5) / glm::dvec2(view.width_px, view.height_px);
+    Mat4 shifted = clipFromView;
+    for (auto& column : shifted.columns) {
+        column[0] = float(column[0] - shift.x * column[3]);
+        column[1] = float(column[1] - shift.y * column[3]);
+    }
+    return shifted;
+}
+
+}  // namespace
+
+ReadableTexture::ReadableTexture(GLuint texture)
+    : texture_(texture),
+      parameters_{{{GL_DEPTH_STENCIL_TEXTURE_MODE, GL_DEPTH_COMPONENT, GL_DEPTH_COMPONENT},
+                   {GL_TEXTURE_COMPARE_MODE, GL_NONE, GL_NONE},
+                   {GL_TEXTURE_MIN_FILTER, GL_NEAREST, GL_NEAREST},
+                   {GL_TEXTURE_BASE_LEVEL, 0, 0}}} {
+    if (texture == 0) return;
+    const bool hasSampling = !isMultisampled(texture);
+    for (Parameter& parameter : parameters_) {
+        if (!hasSampling && parameter.name != GL_DEPTH_STENCIL_TEXTURE_MODE) continue;
+        glGetTextureParameteriv(texture, parameter.name, &parameter.found);
+        if (parameter.found != parameter.needed)
+            glTextureParameteri(texture, parameter.name, parameter.needed);
+    }
+}
+
+ReadableTexture::~ReadableTexture() {
+    for (const Parameter& parameter : parameters_) {
+        if (parameter.found != parameter.needed)
+            glTextureParameteri(texture_, parameter.name, parameter.found);
+    }
+}
+
+void checkTextures(const View& view) {
+    require(view.width_px >= 1 && view.height_px >= 1, "width_px and height_px must be at least 1");
+    require(view.depthTexture != 0, "depthTexture is missing");
+    requireTexture("depthTexture", view.depthTexture, view);
+    if (view.normalTexture != 0) requireTexture("normalTexture", view.normalTexture, view);
+    if (view.receiverTexture != 0) requireTexture("receiverTexture", view.receiverTexture, view);
+}
+
+View HostView::prepare(const View& view) {
+    View plain = view;
+    if (isMultisampled(view.depthTexture)) {
+        plain.clipFromView = withSampleInTheCenter(view.clipFromView, samplePlace(view), view);
+    }
+    plain.depthTexture = copied(view.depthTexture, depth_, GL_R32F, view);
+    plain.normalTexture = copied(view.normalTexture, normals_, GL_RGBA32F, view);
+    plain.receiverTexture = copied(view.receiverTexture, receivers_, GL_R8, view);
+    plain.x_px = plain.y_px = plain.sample = 0;
+    return plain;
+}
+
+GLuint HostView::copied(GLuint texture, gl::Texture& copy, GLenum format, const View& view) {
+    if (texture == 0) return 0;
+    const bool multisampled = isMultisampled(texture);
+    const glm::ivec2 corner_px(view.x_px, view.y_px), size_px(view.width_px, view.height_px);
+    if (!multisampled && corner_px == glm::ivec2(0) && sizeOf(texture) == size_px) return texture;
+
+    if (!copy_) copy_.emplace(device_);
+    if (copy.width_px() != size_px.x || copy.height_px() != size_px.y || copy.name() == 0) {
+        copy = {};
+        copy = gl::Texture(
+            {.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = "host's view"});
+    }
+    copy_->run({texture, corner_px, multisampled, view.sample}, {copy.name(), glm::ivec2(0), format},
+               size_px);
+    return copy.name();
+}
+
+glm::dvec2 HostView::samplePlace(const View& view) {
+    // Places are a framebuffer's to tell.
+    if (samples_.name() == 0) samples_ = gl::Framebuffer({}, nullptr, "host's samples");
+    const bool isDepth = levelParameter(view.depthTexture, GL_TEXTURE_DEPTH_SIZE) > 0;
+    const GLenum attachment = isDepth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0;
+    glNamedFramebufferTexture(samples_.name(), attachment, view.depthTexture, 0);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, samples_.name());
+    std::array<GLfloat, 2> place = {0.5f, 0.5f};
+    glGetMultisamplefv(GL_SAMPLE_POSITION, GLuint(view.sample), place.data());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glNamedFramebufferTexture(samples_.name(), attachment, 0, 0);  // the host's, not to be kept
+    return {place[0], place[1]};
+}
+
+}  // namespace penumbra

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// A host's view comes in many forms; techniques know one: single-sampled textures of the picture's size.
+#pragma once
+
+#include <array>
+
+#include "penumbra/view.h"
+#include "src/gl/framebuffer.h"
+#include "src/gl/texture.h"
+#include "src/hosting/texture_copy.h"
+
+namespace penumbra {
+
+/// Makes a texture of the host's readable with texelFetch while it lives, whatever its sampling parameters
+/// say of comparison, stencil or missing levels.
+class ReadableTexture {
+  public:
+    explicit ReadableTexture(GLuint texture);
+    ReadableTexture(const ReadableTexture&) = delete;
+    ReadableTexture& operator=(const ReadableTexture&) = delete;
+    ~ReadableTexture();
+
+  private:
+    struct Parameter {
+        GLenum name;
+        GLint needed, found;
+    };
+    GLuint texture_;
+    std::array<Parameter, 4> parameters_;
+};
+
+/// Throws Error::Kind::badArgument where a texture is missing or does not contain the picture.
+void checkTextures(const View& view);
+
+class HostView {
+  public:
+    explicit HostView(Device::Internals& device) : device_(device) {}
+
+    /// The view in the form that techniques know, copied only where it has to be. Its textures must pass
+    /// `checkTextures` and be readable.
+    View prepare(const View& view);
+
+  private:
+    GLuint copied(GLuint texture, gl::Texture& copy, GLenum format, const View& view);
+    glm::dvec2 samplePlace(const View& view);
+
+    Device::Internals& device_;
+    std::optional<TextureCopy> copy_;  ///< most hosts never need it
+    gl::Texture depth_, normals_, receivers_;
+    gl::Framebuffer samples_;
+};
+
+}  // namespace penumbra

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a host holds: a technique, with all around it that has nothing to do with shadows: the host's OpenGL
+// state, the forms that its view and its texture for the answer may have, and a context that may be gone.
+#pragma once
+
+#include <optional>
+
+#include "penumbra/technique.h"
+#include "src/hosting/host_view.h"
+
+namespace penumbra {
+
+class HostedTechnique final : public Technique {
+  public:
+    HostedTechnique(Device& device, std::unique_ptr<Technique> (*make)(Device&));
+
+    void describe(ParameterVisitor& visitor) override { technique_->describe(visitor); }
+    void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
+    void inspect(InspectionVisitor& visitor) const override;
+    Statistics statistics() const override;
+
+  private:
+    VisibilityBuffer& writableAtTheOrigin(VisibilityBuffer& out);
+    void deliver(const VisibilityBuffer& written, const VisibilityBuffer& out);
+
+    Device& device_;
+    std::unique_ptr<Technique> technique_;
+    HostView view_;
+    std::optional<VisibilityBuffer> detour_;  ///< for rectangles within the host's texture
+    std::optional<TextureCopy> copy_;
+};
+
+}  // namespace penumbra

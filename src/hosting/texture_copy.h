@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "src/device_internals.h"
+
+namespace penumbra {
+
+/// Copies rectangles between textures that may differ in format and number of samples, which
+/// glCopyImageSubData cannot.
+class TextureCopy {
+  public:
+    explicit TextureCopy(Device::Internals& device);
+
+    struct Source {
+        GLuint texture = 0;
+        glm::ivec2 corner_px{0};
+        bool multisampled = false;
+        int sample = 0;
+    };
+    struct Target {
+        GLuint texture = 0;
+        glm::ivec2 corner_px{0};
+        GLenum format = 0;
+    };
+    void run(const Source& source, const Target& target, const glm::ivec2& size_px) const;
+
+  private:
+    gl::Program plain_, multisampled_;
+};
+
+}  // namespace penumbra

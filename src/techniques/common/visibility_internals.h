@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the library keeps for a visibility buffer; hosts see penumbra::VisibilityBuffer alone.
+#pragma once
+
+#include <memory>
+
+#include "penumbra/technique.h"
+#include "src/gl/texture.h"
+
+namespace penumbra {
+
+struct VisibilityBuffer::Internals {
+    Device::Internals* device = nullptr;
+    gl::Texture own;   ///< or none, and
+    HostTexture host;  ///< the host's
+    GLenum format = 0;
+    bool colored = false;
+
+    /// Techniques write the pixel (x, y) into the texel (x, y): anything else needs a copy (src/hosting).
+    bool startsAtTheOrigin() const { return host.x_px == 0 && host.y_px == 0; }
+};
+
+}  // namespace penumbra
