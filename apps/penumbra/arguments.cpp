@@ -63,6 +63,16 @@ PictureSize SceneArguments::pictureSize() const {
     return {*width, *height};
 }
 
+OpenedScene::OpenedScene(const SceneArguments& arguments)
+    : size(arguments.pictureSize()),
+      scene(arguments.open()),
+      moment(scene.at(arguments.time_s)),
+      camera(findCamera(moment, arguments.camera)),
+      workbench(arguments.device) {
+    workbench.requireSize(size);
+    workbench.open(scene);
+}
+
 std::vector<std::string> techniqueNames(const std::string& list) {
     std::vector<std::string> names;
     if (list == "all") {
@@ -81,14 +91,20 @@ std::vector<std::string> techniqueNames(const std::string& list) {
     return names;
 }
 
-void applySettings(Technique& technique, const std::vector<std::string>& settings) {
+std::vector<std::pair<std::string, std::string>> parseSettings(const std::vector<std::string>& settings) {
+    std::vector<std::pair<std::string, std::string>> parsed;
     for (const std::string& setting : settings) {
         const std::size_t equals = setting.find('=');
         if (equals == std::string::npos) {
             throw UsageError(fmt::format("--set '{}' is not KEY=VALUE", setting));
         }
-        setParameter(technique, setting.substr(0, equals), setting.substr(equals + 1));
+        parsed.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
     }
+    return parsed;
+}
+
+void applySettings(Technique& technique, const std::vector<std::string>& settings) {
+    for (const auto& [name, value] : parseSettings(settings)) setParameter(technique, name, value);
 }
 
 Metadata pictureMetadata(const std::string& commandLine) {

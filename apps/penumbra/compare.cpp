@@ -141,16 +141,11 @@ TechniqueComparison judge(const TechniqueResult& truth, TechniqueResult&& result
 }
 
 void compare(const CompareArguments& arguments, const std::string& commandLine) {
-    const PictureSize size = arguments.scene.pictureSize();
     const std::vector<std::string> names = techniqueNames(arguments.techniques);
     const std::vector<Threshold> thresholds = parseThresholds(arguments.thresholds);
     if (!arguments.output.empty()) requireWritableFolder(arguments.output, true);
-    const Scene scene = arguments.scene.open();
-    const SceneMoment moment = scene.at(arguments.scene.time_s);
-    const Camera& camera = findCamera(moment, arguments.scene.camera);
-    Workbench workbench(arguments.scene.device);
-    workbench.requireSize(size);
-    workbench.open(scene);
+    OpenedScene opened(arguments.scene);
+    auto& [size, scene, moment, camera, workbench] = opened;
 
     ReferenceTechnique reference;
     setParameter(reference, "samples", std::to_string(arguments.samples));
@@ -164,7 +159,8 @@ void compare(const CompareArguments& arguments, const std::string& commandLine) 
     Comparison comparison{.scene = arguments.scene.scene,
                           .width_px = size.width_px,
                           .height_px = size.height_px,
-                          .renderer = workbench.device().renderer(),
+                          .renderer = workbench.renderer(),
+                          .clock = std::string(workbench.clock().name()),
                           .command = commandLine,
                           .reference = summarize(truth, arguments.samples)};
     Progress progress("techniques");

@@ -49,6 +49,7 @@ nlohmann::ordered_json toJson(const Comparison& comparison) {
     nlohmann::ordered_json json = {{"scene", comparison.scene},
                                    {"size", {comparison.width_px, comparison.height_px}},
                                    {"renderer", comparison.renderer},
+                                   {"clock", comparison.clock},
                                    {"reference",
                                     {{"samples", comparison.reference.samples},
                                      {"noise_rms", comparison.reference.noise_rms},

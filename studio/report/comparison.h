@@ -41,6 +41,7 @@ struct Comparison {
     std::string scene;
     int width_px = 0, height_px = 0;
     std::string renderer;  ///< GL_RENDERER, whose milliseconds these are
+    std::string clock;     ///< what they are of, see CostClock
     std::string command;
     ReferenceSummary reference;
     std::vector<TechniqueComparison> techniques;

@@ -94,10 +94,10 @@ std::string toHtml(const Comparison& comparison) {
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>{0}: shadows compared</title>"
         "<style>{1}</style>\n<h1>{0}</h1>\n<p>{2} x {3} pixels; reference: {4} rays a pixel, noise {5:.4f} "
         "rms. "
-        "Times on {6}.<br><code>{7}</code></p>\n",
+        "Times: {8} on {6}.<br><code>{7}</code></p>\n",
         escape(comparison.scene), style, comparison.width_px, comparison.height_px,
         comparison.reference.samples, comparison.reference.noise_rms, escape(comparison.renderer),
-        escape(comparison.command));
+        escape(comparison.command), escape(comparison.clock));
     html += metricsTable(comparison);
     html += fmt::format(
         "<h2>Wipe</h2>\n<p><select>{}</select> | <select>{}</select></p>\n<input type=\"range\" "
