@@ -27,6 +27,8 @@ struct SceneArguments {
 
     /// Adds SCENE and the flags to a subcommand.
     void addTo(CLI::App& command);
+    /// The flags alone, for subcommands that take several scenes.
+    void addFlagsTo(CLI::App& command);
     /// SCENE, --lights, --scene and --animation alone.
     void addSceneTo(CLI::App& command);
 
