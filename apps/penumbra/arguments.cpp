@@ -20,23 +20,38 @@ std::optional<int> parseInt(std::string_view text) {
     return value;
 }
 
+void addFileFlags(CLI::App& command, SceneArguments& arguments) {
+    command.add_option("--lights", arguments.lightsFile,
+                       "lights from this file instead of SCENE.lights.json");
+    command.add_option("--scene", arguments.sceneIndex, "which scene of the file, by index");
+    command.add_option("--animation", arguments.animation, "which animation plays, by index; -1: none")
+        ->capture_default_str();
+}
+
+void addViewFlags(CLI::App& command, SceneArguments& arguments) {
+    command.add_option("--size", arguments.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    command.add_option("--camera", arguments.camera, "a camera of the scene, by name or index");
+    command.add_option("--time", arguments.time_s, "moment of the animation, in seconds")
+        ->capture_default_str();
+    command.add_option("--device", arguments.device, "index from 'penumbra list devices'");
+}
+
 }  // namespace
 
 void SceneArguments::addSceneTo(CLI::App& command) {
     command.add_option("SCENE", scene, "a glTF 2.0 file (.gltf, .glb) or the name of a built-in scene")
         ->required();
-    command.add_option("--lights", lightsFile, "lights from this file instead of SCENE.lights.json");
-    command.add_option("--scene", sceneIndex, "which scene of the file, by index");
-    command.add_option("--animation", animation, "which animation plays, by index; -1: none")
-        ->capture_default_str();
+    addFileFlags(command, *this);
 }
 
 void SceneArguments::addTo(CLI::App& command) {
     addSceneTo(command);
-    command.add_option("--size", size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    command.add_option("--camera", camera, "a camera of the scene, by name or index");
-    command.add_option("--time", time_s, "moment of the animation, in seconds")->capture_default_str();
-    command.add_option("--device", device, "index from 'penumbra list devices'");
+    addViewFlags(command, *this);
+}
+
+void SceneArguments::addFlagsTo(CLI::App& command) {
+    addFileFlags(command, *this);
+    addViewFlags(command, *this);
 }
 
 OpenOptions SceneArguments::openOptions() const {
@@ -63,6 +78,16 @@ PictureSize SceneArguments::pictureSize() const {
     return {*width, *height};
 }
 
+OpenedScene::OpenedScene(const SceneArguments& arguments)
+    : size(arguments.pictureSize()),
+      scene(arguments.open()),
+      moment(scene.at(arguments.time_s)),
+      camera(findCamera(moment, arguments.camera)),
+      workbench(arguments.device) {
+    workbench.requireSize(size);
+    workbench.open(scene);
+}
+
 std::vector<std::string> techniqueNames(const std::string& list) {
     std::vector<std::string> names;
     if (list == "all") {
@@ -81,14 +106,20 @@ std::vector<std::string> techniqueNames(const std::string& list) {
     return names;
 }
 
-void applySettings(Technique& technique, const std::vector<std::string>& settings) {
+std::vector<std::pair<std::string, std::string>> parseSettings(const std::vector<std::string>& settings) {
+    std::vector<std::pair<std::string, std::string>> parsed;
     for (const std::string& setting : settings) {
         const std::size_t equals = setting.find('=');
         if (equals == std::string::npos) {
             throw UsageError(fmt::format("--set '{}' is not KEY=VALUE", setting));
         }
-        setParameter(technique, setting.substr(0, equals), setting.substr(equals + 1));
+        parsed.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
     }
+    return parsed;
+}
+
+void applySettings(Technique& technique, const std::vector<std::string>& settings) {
+    for (const auto& [name, value] : parseSettings(settings)) setParameter(technique, name, value);
 }
 
 Metadata pictureMetadata(const std::string& commandLine) {

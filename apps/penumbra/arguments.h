@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "studio/image/image.h"
@@ -26,6 +27,8 @@ struct SceneArguments {
 
     /// Adds SCENE and the flags to a subcommand.
     void addTo(CLI::App& command);
+    /// The flags alone, for subcommands that take several scenes.
+    void addFlagsTo(CLI::App& command);
     /// SCENE, --lights, --scene and --animation alone.
     void addSceneTo(CLI::App& command);
 
@@ -36,9 +39,24 @@ struct SceneArguments {
     PictureSize pictureSize() const;
 };
 
+/// A scene on a workbench, ready to be rendered: what `compare` and `bench` start from.
+struct OpenedScene {
+    /// Throws UsageError, InputError or NoOpenGLError.
+    explicit OpenedScene(const SceneArguments& arguments);
+
+    PictureSize size;
+    Scene scene;
+    SceneMoment moment;
+    const Camera& camera;  ///< of `moment`
+    Workbench workbench;
+};
+
 /// "NAME,NAME" or "all" as names, each of which exists. `all` means the library's catalog, without the
 /// reference.
 std::vector<std::string> techniqueNames(const std::string& list);
+
+/// Every "KEY=VALUE" as key and value. Throws UsageError.
+std::vector<std::pair<std::string, std::string>> parseSettings(const std::vector<std::string>& settings);
 
 /// Applies every "KEY=VALUE" to `technique`. Throws UsageError.
 void applySettings(Technique& technique, const std::vector<std::string>& settings);

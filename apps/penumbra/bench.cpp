@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "apps/penumbra/arguments.h"
 #include "apps/penumbra/commands.h"
+#include "studio/bench/contest.h"
 #include "studio/workbench/progress.h"
 
 namespace penumbra::studio {
@@ -17,95 +17,64 @@ struct BenchArguments {
     std::string techniques = "all";
     std::vector<std::string> settings;
     int rounds = 15;
+    bool still = false;
     bool json = false;
 };
 
-/// A technique and all its times: one a round, every light together.
-struct Contender {
-    std::string name;
-    std::unique_ptr<Technique> technique;
-    std::vector<double> milliseconds;
-    std::vector<double> ratios;  ///< to `hard` in the same round
-    Statistics statistics;       ///< of the last light
-};
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    std::ranges::nth_element(values, values.begin() + std::ptrdiff_t(values.size() / 2));
-    return values[values.size() / 2];
-}
-
-void printTable(const std::vector<Contender>& contenders, const std::string& renderer) {
-    fmt::print("{:<14} {:>10} {:>8}   passes (ms)\n", "technique", "ms", "x hard");
-    for (const Contender& contender : contenders) {
+void printTable(const std::vector<ContestResult>& results, const Workbench& workbench) {
+    fmt::print("{:<14} {:>10} {:>19} {:>8} {:>9}   passes (ms)\n", "technique", "ms", "quartiles", "x hard",
+               "MB");
+    for (const ContestResult& result : results) {
         std::string passes;
-        for (const PassTime& pass : contender.statistics.passes) {
-            passes += fmt::format("{} {:.2f}  ", pass.name, pass.milliseconds);
-        }
-        fmt::print("{:<14} {:>10.3f} {:>8.2f}   {}\n", contender.name, median(contender.milliseconds),
-                   median(contender.ratios), passes);
+        for (const auto& [name, ms] : result.passes_ms) passes += fmt::format("{} {:.2f}  ", name, ms);
+        fmt::print("{:<14} {:>10.3f} {:>9.3f} {:>9.3f} {:>8.2f} {:>9.2f}   {}\n", result.contender.label,
+                   result.cost_ms.median, result.cost_ms.low, result.cost_ms.high, result.ratio.median,
+                   1e-6 * double(result.memory_bytes), passes);
     }
-    fmt::print("on {}\n", renderer);
+    fmt::print("{} on {}\n", workbench.clock().name(), workbench.renderer());
 }
 
-void printJson(const std::vector<Contender>& contenders, const BenchArguments& arguments, PictureSize size,
-               const std::string& renderer) {
+nlohmann::ordered_json toJson(const Spread& spread) {
+    return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
+}
+
+void printJson(const std::vector<ContestResult>& results, const BenchArguments& arguments, PictureSize size,
+               const Workbench& workbench) {
     nlohmann::ordered_json json = {{"scene", arguments.scene.scene},
                                    {"size", {size.width_px, size.height_px}},
-                                   {"renderer", renderer},
-                                   {"rounds", arguments.rounds},
+                                   {"renderer", workbench.renderer()},
+                                   {"clock", workbench.clock().name()},
+                                   {"motion", arguments.still ? "still" : "moving"},
                                    {"results", nlohmann::json::array()}};
-    for (const Contender& contender : contenders) {
-        nlohmann::ordered_json passes = nlohmann::json::object();
-        for (const PassTime& pass : contender.statistics.passes)
-            passes[std::string(pass.name)] = pass.milliseconds;
-        const auto [low, high] = std::ranges::minmax(contender.milliseconds);
-        json["results"].push_back(
-            {{"technique", contender.name},
-             {"ms", {{"median", median(contender.milliseconds)}, {"min", low}, {"max", high}}},
-             {"ratio_to_hard", median(contender.ratios)},
-             {"passes_ms", std::move(passes)}});
+    for (const ContestResult& result : results) {
+        json["results"].push_back({{"technique", result.contender.label},
+                                   {"rounds", result.rounds},
+                                   {"ms", toJson(result.cost_ms)},
+                                   {"ratio_to_hard", toJson(result.ratio)},
+                                   {"memory_bytes", result.memory_bytes},
+                                   {"passes_ms", result.passes_ms}});
     }
     std::cout << json.dump(2) << "\n";
 }
 
-/// Rounds in which every contender renders once, so that a drift of the machine's speed meets all alike.
 void bench(const BenchArguments& arguments) {
-    const PictureSize size = arguments.scene.pictureSize();
-    std::vector<std::string> names = techniqueNames(arguments.techniques);
-    std::erase(names, "hard");
-    names.insert(names.begin(), "hard");
-    const Scene scene = arguments.scene.open();
-    const SceneMoment moment = scene.at(arguments.scene.time_s);
-    const Camera& camera = findCamera(moment, arguments.scene.camera);
-    Workbench workbench(arguments.scene.device);
-    workbench.requireSize(size);
-    workbench.open(scene);
-
-    std::vector<Contender> contenders;
-    for (const std::string& name : names) {
-        contenders.push_back({name, workbench.makeTechnique(name), {}, {}, {}});
-        if (name != "hard") applySettings(*contenders.back().technique, arguments.settings);
+    OpenedScene opened(arguments.scene);
+    const std::vector<Contender> contenders =
+        contendersOf(techniqueNames(arguments.techniques), parseSettings(arguments.settings));
+    for (const Contender& contender : contenders) {
+        for (const auto& [name, value] : contender.settings)
+            setParameter(*opened.workbench.makeTechnique(contender.technique), name, value);
     }
     Progress progress("bench");
-    constexpr int warmUp = 2;
-    for (int round = -warmUp; round < arguments.rounds; ++round) {
-        progress.update(double(round + warmUp) / (arguments.rounds + warmUp));
-        for (Contender& contender : contenders) {
-            const TechniqueResult result =
-                workbench.run(contender.name, *contender.technique, moment, camera, size, 1);
-            double sum = 0;
-            for (const LightResult& light : result.lights) sum += light.milliseconds.front();
-            if (!result.lights.empty()) contender.statistics = result.lights.back().statistics;
-            if (round < 0) continue;
-            contender.milliseconds.push_back(sum);
-            contender.ratios.push_back(sum / contenders.front().milliseconds.back());
-        }
-    }
+    const std::vector<ContestResult> results =
+        runContest(opened.workbench, opened.moment, opened.camera, opened.size, contenders,
+                   {.rounds = arguments.rounds, .moving = !arguments.still, .progress = [&](double fraction) {
+                        progress.update(fraction);
+                    }});
     if (arguments.json) {
-        printJson(contenders, arguments, size, workbench.device().renderer());
+        printJson(results, arguments, opened.size, opened.workbench);
     } else {
-        printTable(contenders, workbench.device().renderer());
+        printTable(results, opened.workbench);
     }
 }
 
@@ -124,6 +93,8 @@ void addBench(CLI::App& app) {
     command->add_option("--rounds", arguments->rounds, "measured rounds")
         ->capture_default_str()
         ->check(CLI::Range(1, 10000));
+    command->add_flag("--still", arguments->still,
+                      "nothing moves from frame to frame: what techniques keep counts for them");
     command->add_flag("--json", arguments->json, "print the result as JSON instead of a table");
     command->callback([arguments] { bench(*arguments); });
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
@@ -11,24 +10,25 @@
 
 #include "apps/penumbra/arguments.h"
 #include "apps/penumbra/commands.h"
+#include "studio/bench/judge.h"
 #include "studio/errors.h"
-#include "studio/metrics/flip.h"
-#include "studio/report/comparison.h"
+#include "studio/image/atomic_file.h"
+#include "studio/report/ranking.h"
+#include "studio/scene/builtin/builtin.h"
 #include "studio/workbench/progress.h"
-#include "studio/workbench/reference_technique.h"
 
 namespace penumbra::studio {
 namespace {
 
-constexpr int timedRuns = 5;
-
 struct CompareArguments {
-    SceneArguments scene;
+    std::vector<std::string> scenes;
+    SceneArguments view;
     std::string techniques = "all";
     std::string output;
     std::vector<std::string> settings;
     std::vector<std::string> thresholds;
     int samples = 256;
+    std::string flicker;
     bool json = false;
 };
 
@@ -39,14 +39,17 @@ struct Threshold {
 };
 
 /// Names as in toJson.
-constexpr std::array<std::pair<std::string_view, double VisibilityMetrics::*>, 7> metricMembers = {
-    {{"rmse", &VisibilityMetrics::rmse},
-     {"mae", &VisibilityMetrics::mae},
-     {"penumbra_rmse", &VisibilityMetrics::penumbra_rmse},
-     {"p99", &VisibilityMetrics::p99},
-     {"max", &VisibilityMetrics::max},
-     {"leak", &VisibilityMetrics::leak},
-     {"false_shadow", &VisibilityMetrics::false_shadow}}};
+using MetricValue = double (*)(const TechniqueComparison&, const LightComparison&);
+constexpr std::array<std::pair<std::string_view, MetricValue>, 9> metricValues = {
+    {{"rmse", [](const auto&, const auto& light) { return light.metrics.rmse; }},
+     {"mae", [](const auto&, const auto& light) { return light.metrics.mae; }},
+     {"penumbra_rmse", [](const auto&, const auto& light) { return light.metrics.penumbra_rmse; }},
+     {"p99", [](const auto&, const auto& light) { return light.metrics.p99; }},
+     {"max", [](const auto&, const auto& light) { return light.metrics.max; }},
+     {"leak", [](const auto&, const auto& light) { return light.metrics.leak; }},
+     {"false_shadow", [](const auto&, const auto& light) { return light.metrics.false_shadow; }},
+     {"flip", [](const auto& technique, const auto&) { return technique.flip; }},
+     {"flicker", [](const auto&, const auto& light) { return light.flicker ? light.flicker->rms : 0; }}}};
 
 std::vector<Threshold> parseThresholds(const std::vector<std::string>& texts) {
     std::vector<Threshold> thresholds;
@@ -54,15 +57,14 @@ std::vector<Threshold> parseThresholds(const std::vector<std::string>& texts) {
         const std::size_t equals = std::min(text.find('='), text.size());
         Threshold threshold{.metric = text.substr(0, equals)};
         const bool known =
-            threshold.metric == "flip" ||
-            std::ranges::any_of(metricMembers, [&](const auto& m) { return m.first == threshold.metric; });
+            std::ranges::any_of(metricValues, [&](const auto& m) { return m.first == threshold.metric; });
         const char* const end = text.data() + text.size();
         const char* const begin = std::min(text.data() + equals + 1, end);
         const auto parsed = std::from_chars(begin, end, threshold.value);
         if (!known || parsed.ec != std::errc() || parsed.ptr != end || std::isnan(threshold.value)) {
             throw UsageError(
                 fmt::format("--fail-above '{}' is not METRIC=VALUE; metrics are rmse, mae, penumbra_rmse, "
-                            "p99, max, leak, false_shadow, flip",
+                            "p99, max, leak, false_shadow, flip, flicker",
                             text));
         }
         thresholds.push_back(threshold);
@@ -71,119 +73,107 @@ std::vector<Threshold> parseThresholds(const std::vector<std::string>& texts) {
 }
 
 /// Throws ThresholdError naming everything that is exceeded.
-void requireBelow(const Comparison& comparison, const std::vector<Threshold>& thresholds) {
+void requireBelow(std::span<const Comparison> comparisons, const std::vector<Threshold>& thresholds) {
     std::string exceeded;
-    for (const TechniqueComparison& technique : comparison.techniques) {
-        for (const LightComparison& light : technique.lights) {
-            for (const Threshold& threshold : thresholds) {
-                double value = technique.flip;
-                for (const auto& [name, member] : metricMembers) {
-                    if (name == threshold.metric) value = light.metrics.*member;
+    for (const Comparison& comparison : comparisons) {
+        for (const TechniqueComparison& technique : comparison.techniques) {
+            for (const LightComparison& light : technique.lights) {
+                for (const Threshold& threshold : thresholds) {
+                    const auto metric = std::ranges::find(metricValues, threshold.metric,
+                                                          &decltype(metricValues)::value_type::first);
+                    const double value = metric->second(technique, light);
+                    if (value <= threshold.value) continue;
+                    exceeded +=
+                        fmt::format("{}{}: {} on light '{}': {} is {:.6g}, above {:g}",
+                                    exceeded.empty() ? "" : "\n", comparison.scene, technique.technique,
+                                    light.light, threshold.metric, value, threshold.value);
                 }
-                if (value <= threshold.value) continue;
-                exceeded +=
-                    fmt::format("{}{} on light '{}': {} is {:.6g}, above {:g}", exceeded.empty() ? "" : "\n",
-                                technique.technique, light.light, threshold.metric, value, threshold.value);
             }
         }
     }
     if (!exceeded.empty()) throw ThresholdError(exceeded);
 }
 
-/// Where the unshadowed light arrives: nothing else is judged.
-std::vector<std::uint8_t> reachedPixels(const Image& reach) {
-    std::vector<std::uint8_t> mask(reach.pixelCount());
-    std::ranges::transform(reach.values, mask.begin(), [](float irradiance) { return irradiance > 0; });
-    return mask;
+/// What moves; throws UsageError.
+std::optional<FlickerMotion> parseFlicker(const std::string& name) {
+    if (name.empty()) return std::nullopt;
+    if (name == "animation") return FlickerMotion::animation;
+    if (name == "camera") return FlickerMotion::camera;
+    if (name == "light") return FlickerMotion::light;
+    throw UsageError(fmt::format("--flicker '{}' is not animation, camera or light", name));
 }
 
-double countOf(const Statistics& statistics, std::string_view name) {
-    const auto found = std::ranges::find(statistics.counts, name, &Statistic::name);
-    return found == statistics.counts.end() ? 0 : found->value;
+/// "all" as the names of the built-in scenes.
+std::vector<std::string> sceneNames(const std::vector<std::string>& scenes) {
+    if (scenes != std::vector<std::string>{"all"}) return scenes;
+    std::vector<std::string> names;
+    for (const BuiltinInfo& info : builtinScenes()) names.emplace_back(info.name);
+    return names;
 }
 
-ReferenceSummary summarize(const TechniqueResult& truth, int samples) {
-    ReferenceSummary summary{.samples = samples, .display = truth.display};
-    double rays = 0, seconds = 0;
-    for (const LightResult& light : truth.lights) {
-        summary.noise_rms = std::max(summary.noise_rms, countOf(light.statistics, "noise_rms"));
-        summary.visibilities.push_back(light.visibility);
-        rays += countOf(light.statistics, "rays");
-        seconds += countOf(light.statistics, "trace_seconds");
+Comparison compareScene(const SceneArguments& scene, const std::vector<Contender>& contenders, int samples,
+                        std::optional<FlickerMotion> flicker) {
+    OpenedScene opened(scene);
+    if (flicker == FlickerMotion::animation && opened.scene.animations.empty()) {
+        throw UsageError(fmt::format("{} has no animation: ask for --flicker camera or light", scene.scene));
     }
-    summary.raysPerSecond = seconds > 0 ? rays / seconds : 0;
-    return summary;
-}
-
-TechniqueComparison judge(const TechniqueResult& truth, TechniqueResult&& result) {
-    TechniqueComparison comparison{.technique = result.technique,
-                                   .flip = flip(truth.display, result.display),
-                                   .display = std::move(result.display)};
-    for (std::size_t i = 0; i < result.lights.size(); ++i) {
-        LightResult& light = result.lights[i];
-        LightComparison& judged = comparison.lights.emplace_back();
-        judged.light = light.light;
-        judged.metrics =
-            compareVisibility(truth.lights[i].visibility, light.visibility, reachedPixels(light.reach));
-        judged.milliseconds = std::move(light.milliseconds);
-        for (const Statistic& count : light.statistics.counts) {
-            judged.counts.emplace_back(count.name, count.value);
-        }
-        judged.visibility = std::move(light.visibility);
-        if (judged.metrics.notFinite > 0) {
-            throw std::runtime_error(
-                fmt::format("{}: {} visibility values are not finite, the first at pixel {}, {}",
-                            comparison.technique, judged.metrics.notFinite, judged.metrics.firstNotFinite->x,
-                            judged.metrics.firstNotFinite->y));
-        }
-    }
+    Progress progress(scene.scene);
+    Comparison comparison = judge(
+        opened.workbench, opened.scene, opened.moment, opened.camera, opened.size, contenders,
+        {.samples = samples, .flicker = flicker, .progress = [&](double fraction, const std::string& what) {
+             progress.update(fraction, what);
+         }});
+    comparison.scene = scene.scene;
     return comparison;
 }
 
+/// A folder for each of several scenes: its name, or its file's without the extension.
+std::filesystem::path folderOf(const std::filesystem::path& output, const std::string& scene, bool alone) {
+    return alone ? output : output / std::filesystem::path(scene).stem();
+}
+
 void compare(const CompareArguments& arguments, const std::string& commandLine) {
-    const PictureSize size = arguments.scene.pictureSize();
-    const std::vector<std::string> names = techniqueNames(arguments.techniques);
+    const std::vector<std::string> scenes = sceneNames(arguments.scenes);
     const std::vector<Threshold> thresholds = parseThresholds(arguments.thresholds);
-    if (!arguments.output.empty()) requireWritableFolder(arguments.output, true);
-    const Scene scene = arguments.scene.open();
-    const SceneMoment moment = scene.at(arguments.scene.time_s);
-    const Camera& camera = findCamera(moment, arguments.scene.camera);
-    Workbench workbench(arguments.scene.device);
-    workbench.requireSize(size);
-    workbench.open(scene);
-
-    ReferenceTechnique reference;
-    setParameter(reference, "samples", std::to_string(arguments.samples));
-    TechniqueResult truth;
-    {
-        Progress progress("reference");
-        reference.setProgress([&](double fraction) { progress.update(fraction); });
-        truth = workbench.run("reference", reference, moment, camera, size);
+    const std::optional<FlickerMotion> flicker = parseFlicker(arguments.flicker);
+    std::vector<Contender> contenders;
+    for (const std::string& name : techniqueNames(arguments.techniques)) {
+        contenders.push_back(
+            {.label = name, .technique = name, .settings = parseSettings(arguments.settings)});
+    }
+    const bool alone = scenes.size() == 1;
+    if (!arguments.output.empty()) {
+        for (const std::string& scene : scenes)
+            requireWritableFolder(folderOf(arguments.output, scene, alone), true);
     }
 
-    Comparison comparison{.scene = arguments.scene.scene,
-                          .width_px = size.width_px,
-                          .height_px = size.height_px,
-                          .renderer = workbench.device().renderer(),
-                          .command = commandLine,
-                          .reference = summarize(truth, arguments.samples)};
-    Progress progress("techniques");
-    for (const std::string& name : names) {
-        progress.update(double(comparison.techniques.size()) / double(names.size()));
-        const std::unique_ptr<Technique> technique = workbench.makeTechnique(name);
-        applySettings(*technique, arguments.settings);
-        comparison.techniques.push_back(
-            judge(truth, workbench.run(name, *technique, moment, camera, size, timedRuns)));
+    std::vector<Comparison> comparisons;
+    for (const std::string& name : scenes) {
+        SceneArguments scene = arguments.view;
+        scene.scene = name;
+        Comparison& comparison =
+            comparisons.emplace_back(compareScene(scene, contenders, arguments.samples, flicker));
+        comparison.command = commandLine;
+        if (!arguments.output.empty()) {
+            writeComparison(folderOf(arguments.output, name, alone), comparison,
+                            pictureMetadata(commandLine));
+        }
     }
-
-    if (!arguments.output.empty())
-        writeComparison(arguments.output, comparison, pictureMetadata(commandLine));
+    if (!alone && !arguments.output.empty()) {
+        const std::filesystem::path folder = arguments.output;
+        writeFileAtomically(folder / "report.html", toHtml(comparisons, commandLine));
+        writeFileAtomically(folder / "tables.md", toMarkdown(comparisons));
+    }
     if (arguments.json) {
-        std::cout << toJson(comparison).dump(2) << "\n";
+        std::cout << (alone ? toJson(comparisons.front()) : toJson(comparisons)).dump(2) << "\n";
     } else {
-        std::cout << toTable(comparison);
+        for (const Comparison& comparison : comparisons) {
+            if (!alone) std::cout << comparison.scene << "\n";
+            std::cout << toTable(comparison) << (alone ? "" : "\n");
+        }
+        if (!alone) std::cout << rankingTable(comparisons);
     }
-    requireBelow(comparison, thresholds);
+    requireBelow(comparisons, thresholds);
 }
 
 }  // namespace
@@ -191,7 +181,11 @@ void compare(const CompareArguments& arguments, const std::string& commandLine) 
 void addCompare(CLI::App& app, const std::string& commandLine) {
     CLI::App* command = app.add_subcommand("compare", "judge techniques against the ray-traced reference");
     auto arguments = std::make_shared<CompareArguments>();
-    arguments->scene.addTo(*command);
+    command
+        ->add_option("SCENE", arguments->scenes,
+                     "glTF 2.0 files (.gltf, .glb) or names of built-in scenes; 'all': all built-in ones")
+        ->required();
+    arguments->view.addFlagsTo(*command);
     command->add_option("-t,--technique", arguments->techniques, "NAME,NAME or all")->capture_default_str();
     command->add_option("-o,--output", arguments->output,
                         "a folder for pictures, differences and report.html");
@@ -201,6 +195,9 @@ void addCompare(CLI::App& app, const std::string& commandLine) {
         ->add_option("--set", arguments->settings,
                      "KEY=VALUE: a parameter of the techniques; may be repeated")
         ->take_all();
+    command->add_option(
+        "--flicker", arguments->flicker,
+        "also measure flicker, over 8 frames in which this moves: animation, camera or light");
     command
         ->add_option("--fail-above", arguments->thresholds,
                      "METRIC=VALUE: exit with 1 if any technique's METRIC, named as in --json, is larger; "

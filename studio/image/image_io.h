@@ -2,6 +2,7 @@
 // Pictures in files. Every writer's file appears whole or not at all (see atomic_file.h).
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -45,6 +46,9 @@ ExrPicture readExr(const std::filesystem::path& path);
 /// (sRGB-encoded), clamped to [0, 1] and rounded. A value that is not finite is an OutputError that names its
 /// pixel. Metadata is stored as text chunks, its keys being 1 to 79 printable ASCII characters.
 void writePng(const std::filesystem::path& path, const Image& image, const Metadata& metadata = {});
+
+/// The bytes of such a file, without metadata: for pages that hold their pictures.
+std::vector<std::byte> encodePng(const Image& image);
 
 struct PngPicture {
     Image image;  ///< sRGB-encoded as stored, in [0, 1]; 1 (grey), 3 or 4 channels

@@ -184,7 +184,11 @@ class Reader {
 
 }  // namespace
 
-void writePng(const std::filesystem::path& path, const Image& image, const Metadata& metadata) {
+namespace {
+
+/// `path` is what messages name.
+std::vector<std::byte> encode(const std::filesystem::path& path, const Image& image,
+                              const Metadata& metadata) {
     assert(image.channels == 1 || image.channels == 3 || image.channels == 4);
     const std::vector<png_byte> pixels = quantize(path, image);
     std::vector<png_text> texts = textChunks(path, metadata);
@@ -193,7 +197,17 @@ void writePng(const std::filesystem::path& path, const Image& image, const Metad
         throw OutputError(fmt::format("cannot write '{}': {}; choose another size or format", path.string(),
                                       writer.failure.message.data()));
     }
-    writeFileAtomically(path, writer.bytes);
+    return std::move(writer.bytes);
+}
+
+}  // namespace
+
+void writePng(const std::filesystem::path& path, const Image& image, const Metadata& metadata) {
+    writeFileAtomically(path, encode(path, image, metadata));
+}
+
+std::vector<std::byte> encodePng(const Image& image) {
+    return encode("a picture in a page", image, {});
 }
 
 PngPicture readPng(const std::filesystem::path& path) {

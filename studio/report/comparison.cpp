@@ -49,6 +49,7 @@ nlohmann::ordered_json toJson(const Comparison& comparison) {
     nlohmann::ordered_json json = {{"scene", comparison.scene},
                                    {"size", {comparison.width_px, comparison.height_px}},
                                    {"renderer", comparison.renderer},
+                                   {"clock", comparison.clock},
                                    {"reference",
                                     {{"samples", comparison.reference.samples},
                                      {"noise_rms", comparison.reference.noise_rms},
@@ -59,18 +60,23 @@ nlohmann::ordered_json toJson(const Comparison& comparison) {
             const VisibilityMetrics& m = light.metrics;
             nlohmann::ordered_json counts = nlohmann::json::object();
             for (const auto& [name, value] : light.counts) counts[name] = value;
-            json["results"].push_back({{"technique", technique.technique},
-                                       {"light", light.light},
-                                       {"rmse", m.rmse},
-                                       {"mae", m.mae},
-                                       {"penumbra_rmse", m.penumbra_rmse},
-                                       {"p99", m.p99},
-                                       {"max", m.max},
-                                       {"leak", m.leak},
-                                       {"false_shadow", m.false_shadow},
-                                       {"flip", technique.flip},
-                                       {"ms", spreadOf(light.milliseconds)},
-                                       {"counts", std::move(counts)}});
+            nlohmann::ordered_json result = {{"technique", technique.technique},
+                                             {"light", light.light},
+                                             {"rmse", m.rmse},
+                                             {"mae", m.mae},
+                                             {"penumbra_rmse", m.penumbra_rmse},
+                                             {"p99", m.p99},
+                                             {"max", m.max},
+                                             {"leak", m.leak},
+                                             {"false_shadow", m.false_shadow},
+                                             {"flip", technique.flip},
+                                             {"ms", spreadOf(light.milliseconds)},
+                                             {"counts", std::move(counts)}};
+            if (light.flicker) {
+                result["flicker"] = light.flicker->rms;
+                result["popping"] = light.flicker->popping;
+            }
+            json["results"].push_back(std::move(result));
         }
     }
     return json;

@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "studio/image/image.h"
+#include "studio/metrics/flicker.h"
 #include "studio/metrics/visibility_metrics.h"
 
 namespace penumbra::studio {
@@ -19,7 +21,8 @@ struct LightComparison {
     VisibilityMetrics metrics;
     std::vector<double> milliseconds;  ///< of each timed render
     std::vector<std::pair<std::string, double>> counts;
-    Image visibility;  ///< 1 or 3 channels
+    std::optional<FlickerMetrics> flicker;  ///< where it was measured
+    Image visibility;                       ///< 1 or 3 channels
 };
 
 struct TechniqueComparison {
@@ -41,6 +44,7 @@ struct Comparison {
     std::string scene;
     int width_px = 0, height_px = 0;
     std::string renderer;  ///< GL_RENDERER, whose milliseconds these are
+    std::string clock;     ///< what they are of, see CostClock
     std::string command;
     ReferenceSummary reference;
     std::vector<TechniqueComparison> techniques;

@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 
 #include "studio/report/comparison.h"
+#include "studio/report/html.h"
 #include "studio/report/report_files.h"
 
 namespace penumbra::studio {
 namespace {
+
+using html::escape;
 
 constexpr const char* style = R"(
 body { font: 15px/1.5 system-ui, sans-serif; margin: 2em auto; max-width: 1300px; padding: 0 1em; color: #222; background: #fafafa; }
@@ -27,29 +30,6 @@ const wipe = document.querySelector('.wipe'), images = wipe.querySelectorAll('im
 document.querySelector('input').oninput = e => wipe.style.setProperty('--at', e.target.value + '%');
 document.querySelectorAll('select').forEach((s, i) => s.onchange = () => images[i].src = s.value);
 )";
-
-std::string escape(std::string_view text) {
-    std::string escaped;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                escaped += "&amp;";
-                break;
-            case '<':
-                escaped += "&lt;";
-                break;
-            case '>':
-                escaped += "&gt;";
-                break;
-            case '"':
-                escaped += "&quot;";
-                break;
-            default:
-                escaped += c;
-        }
-    }
-    return escaped;
-}
 
 std::string figure(const std::string& file, const std::string& caption) {
     return fmt::format("<figure><img src=\"{0}\" alt=\"{1}\"><figcaption>{1}</figcaption></figure>\n", file,
@@ -94,10 +74,10 @@ std::string toHtml(const Comparison& comparison) {
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>{0}: shadows compared</title>"
         "<style>{1}</style>\n<h1>{0}</h1>\n<p>{2} x {3} pixels; reference: {4} rays a pixel, noise {5:.4f} "
         "rms. "
-        "Times on {6}.<br><code>{7}</code></p>\n",
+        "Times: {8} on {6}.<br><code>{7}</code></p>\n",
         escape(comparison.scene), style, comparison.width_px, comparison.height_px,
         comparison.reference.samples, comparison.reference.noise_rms, escape(comparison.renderer),
-        escape(comparison.command));
+        escape(comparison.command), escape(comparison.clock));
     html += metricsTable(comparison);
     html += fmt::format(
         "<h2>Wipe</h2>\n<p><select>{}</select> | <select>{}</select></p>\n<input type=\"range\" "

@@ -14,11 +14,12 @@ class Progress {
     Progress& operator=(const Progress&) = delete;
     ~Progress();
 
-    /// `fraction` of the work is done, in [0, 1].
-    void update(double fraction);
+    /// `fraction` of the work is done, in [0, 1]; where the work has stages, of the one called `stage`.
+    void update(double fraction, const std::string& stage = "");
 
   private:
     std::string what_;
+    std::string stage_;
     bool terminal_;
     std::chrono::steady_clock::time_point start_;
     std::chrono::steady_clock::time_point shown_;

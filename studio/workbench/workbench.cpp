@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 
 #include "studio/errors.h"
 #include "studio/workbench/reference_technique.h"
@@ -34,10 +33,6 @@ void logFromDevice(LogLevel level, std::string_view message) {
     }
 }
 
-double secondsSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 }  // namespace
 
 std::vector<TechniqueInfo> allTechniques() {
@@ -54,7 +49,7 @@ std::string_view defaultTechnique() {
 }
 
 Workbench::Workbench(std::optional<int> device)
-    : context_(device), device_(DeviceOptions{.log = logFromDevice}), frame_(device_) {
+    : context_(device), device_(DeviceOptions{.log = logFromDevice}), clock_(device_), frame_(device_) {
     spdlog::info("OpenGL on {}", device_.renderer());
 }
 
@@ -87,11 +82,8 @@ TechniqueResult Workbench::run(std::string_view name, Technique& technique, cons
         VisibilityBuffer visibility = frame_.makeVisibility(light);
         technique.render(inputs, visibility);
         for (int i = 0; i < timedRuns; ++i) {
-            glFinish();
-            const auto start = std::chrono::steady_clock::now();
-            technique.render(inputs, visibility);
-            glFinish();
-            lightResult.milliseconds.push_back(1e3 * secondsSince(start));
+            lightResult.milliseconds.push_back(
+                clock_.milliseconds([&] { technique.render(inputs, visibility); }));
         }
         lightResult.visibility = frame_.readVisibility(visibility);
         lightResult.statistics = technique.statistics();

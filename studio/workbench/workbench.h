@@ -14,6 +14,7 @@
 #include "studio/frame/frame_renderer.h"
 #include "studio/image/image.h"
 #include "studio/scene/scene.h"
+#include "studio/workbench/cost_clock.h"
 
 namespace penumbra::studio {
 
@@ -24,7 +25,7 @@ struct LightResult {
     Image reach;  ///< the light's unshadowed irradiance for unit emission; 0: the light does not reach the
                   ///< pixel
     Statistics statistics;
-    std::vector<double> milliseconds;  ///< wall-clock time of each timed render, device included
+    std::vector<double> milliseconds;  ///< cost of each timed render (see Workbench::clock)
 };
 
 struct TechniqueResult {
@@ -56,7 +57,11 @@ class Workbench {
     void makeCurrent() const { context_.makeCurrent(); }
 
     Device& device() { return device_; }
+    const std::string& renderer() const { return device_.renderer(); }
+    const CostClock& clock() const { return clock_; }
     FrameRenderer& frame() { return frame_; }
+    /// The scene that is open.
+    GpuScene& scene() { return *scene_; }
 
     /// A technique of the catalog, or the ray-traced reference. Throws Error::Kind::unknownName listing them
     /// all.
@@ -75,6 +80,7 @@ class Workbench {
   private:
     HeadlessContext context_;
     Device device_;
+    CostClock clock_;
     FrameRenderer frame_;
     std::unique_ptr<GpuScene> scene_;
 };
