@@ -47,6 +47,7 @@ int exitCodeOf(penumbra::Error::Kind kind) {
         case penumbra::Error::Kind::noOpenGL:
         case penumbra::Error::Kind::shader:
         case penumbra::Error::Kind::outOfMemory:
+        case penumbra::Error::Kind::lostContext:
             return noOpenGL;
     }
     return failed;

@@ -43,6 +43,7 @@ void FrameRenderer::resize(int width_px, int height_px) {
     };
     radiance_ = make(GL_RGBA32F, "radiance");
     unshadowed_ = make(GL_RGBA32F, "unshadowed radiance");
+    illuminance_ = make(GL_R32F, "illuminance");
     reach_ = make(GL_R32F, "unshadowed irradiance of one light");
     display_ = make(GL_RGBA8, "display");
 }
@@ -53,8 +54,13 @@ void FrameRenderer::draw(const GpuScene& scene, const SceneMoment& moment, const
     scene_ = &scene;
     camera_ = makeCameraView(camera, moment.bounds, width_px, height_px);
     gbuffer_.render(scene, camera_, width_px, height_px);
+    beginLighting();
+}
+
+void FrameRenderer::beginLighting() {
     glClearTexImage(radiance_.name(), 0, GL_RGBA, GL_FLOAT, nullptr);
     glClearTexImage(unshadowed_.name(), 0, GL_RGBA, GL_FLOAT, nullptr);
+    glClearTexImage(illuminance_.name(), 0, GL_RED, GL_FLOAT, nullptr);
 }
 
 ShadowInputs FrameRenderer::shadowInputs(const Light& light) const {
@@ -99,6 +105,7 @@ void FrameRenderer::addLight(const Light& light, const VisibilityBuffer& visibil
     radiance_.bindImage(0, GL_READ_WRITE);
     unshadowed_.bindImage(1, GL_READ_WRITE);
     reach_.bindImage(2, GL_WRITE_ONLY);
+    illuminance_.bindImage(3, GL_READ_WRITE);
     gl::dispatchPixels(display_.width_px(), display_.height_px());
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                     GL_TEXTURE_UPDATE_BARRIER_BIT);
@@ -117,23 +124,25 @@ Image FrameRenderer::readRadiance() const {
     return readTexture(radiance_.name(), radiance_.width_px(), radiance_.height_px(), 3);
 }
 
+const gl::Texture& FrameRenderer::toneMap() {
+    const gl::DebugGroup group("tone mapping");
+    exposure_.use();
+    unshadowed_.bind(0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, exposureResult_.name());
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    toneMap_.use();
+    radiance_.bind(0);
+    gbuffer_.albedo().bind(1);
+    glBindTextureUnit(2, gbuffer_.view().depthTexture);
+    display_.bindImage(0, GL_WRITE_ONLY);
+    gl::dispatchPixels(display_.width_px(), display_.height_px());
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    return display_;
+}
+
 Image FrameRenderer::readDisplay() {
-    {
-        const gl::DebugGroup group("tone mapping");
-        exposure_.use();
-        unshadowed_.bind(0);
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, exposureResult_.name());
-        glDispatchCompute(1, 1, 1);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-        toneMap_.use();
-        radiance_.bind(0);
-        gbuffer_.albedo().bind(1);
-        glBindTextureUnit(2, gbuffer_.view().depthTexture);
-        display_.bindImage(0, GL_WRITE_ONLY);
-        gl::dispatchPixels(display_.width_px(), display_.height_px());
-        glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-    }
-    return readTexture(display_.name(), display_.width_px(), display_.height_px(), 3);
+    return readTexture(toneMap().name(), display_.width_px(), display_.height_px(), 3);
 }
 
 Image readTexture(GLuint texture, int width_px, int height_px, int channels) {

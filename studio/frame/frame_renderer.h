@@ -31,12 +31,26 @@ class FrameRenderer {
     void draw(const GpuScene& scene, const SceneMoment& moment, const Camera& camera, int width_px,
               int height_px);
 
+    /// Forgets the light that was added: the same view again, with other visibility.
+    void beginLighting();
+
     /// What a technique needs to know; without casters for a light that casts no shadow.
     ShadowInputs shadowInputs(const Light& light) const;
     VisibilityBuffer makeVisibility(const Light& light) const;
 
     /// Adds a light times its visibility.
     void addLight(const Light& light, const VisibilityBuffer& visibility);
+
+    /// The picture as shown: exposed, tone mapped, sRGB-encoded RGBA8. Owned by the frame, as are the
+    /// textures below; all have the size of the last draw() and are replaced when it changes.
+    const gl::Texture& toneMap();
+    const gl::Texture& illuminance() const { return illuminance_; }  ///< lux on each surface, R32F
+    const gl::Texture& reach() const { return reach_; }              ///< see readReach()
+    const GBuffer& gbuffer() const { return gbuffer_; }
+    const CameraView& camera() const { return camera_; }
+
+    /// See Device::reloadShaders, which is about the library's.
+    void reloadShaders() { shaders_.reload(); }
 
     /// Reading waits for the device. Rows from the top.
     Image readVisibility(const VisibilityBuffer& visibility) const;  ///< 1 channel, or 3 where it is colored
@@ -55,7 +69,7 @@ class FrameRenderer {
     gl::Program lighting_, exposure_, toneMap_;
     gl::ConstantBuffer<LightingConstants> lightingConstants_;
     gl::Buffer exposureResult_;
-    gl::Texture radiance_, unshadowed_, reach_, display_;
+    gl::Texture radiance_, unshadowed_, illuminance_, reach_, display_;
     const GpuScene* scene_ = nullptr;
     CameraView camera_;
 };

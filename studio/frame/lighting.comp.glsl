@@ -15,6 +15,7 @@ layout(binding = 4) uniform sampler2D radianceTexture;
 layout(binding = 0, rgba32f) uniform image2D radianceImage;      // with shadows
 layout(binding = 1, rgba32f) uniform image2D unshadowedImage;  // without
 layout(binding = 2, r32f) uniform writeonly image2D reachImage;  // this light's unshadowed irradiance
+layout(binding = 3, r32f) uniform image2D illuminanceImage;      // lux, with shadows
 
 // Irradiance of a light of size zero whose emission is 1 candela or 1 lux.
 float pointIrradiance(vec3 pos, vec3 normal) {
@@ -62,8 +63,12 @@ void main() {
         vec3 emission = light.emission.rgb;
         if (light.kind.w == 1) emission *= textureLod(radianceTexture, vec2(0.5), 99.0).rgb;  // its mean
         vec4 visibility = texelFetch(visibilityTexture, pixel, 0);
+        vec3 seen = light.target.z == 1 ? visibility.rgb : visibility.rrr;
         vec3 reflected = albedo.rgb / pi * emission * reach;
-        vec3 shadowed = reflected * (light.target.z == 1 ? visibility.rgb : visibility.rrr);
+        vec3 shadowed = reflected * seen;
+        // Emission is in photometric units, of which a colour's luminance is the Rec. 709 weighted sum.
+        float lux = dot(emission * seen, vec3(0.2126, 0.7152, 0.0722)) * reach;
+        imageStore(illuminanceImage, pixel, imageLoad(illuminanceImage, pixel) + lux);
         imageStore(radianceImage, pixel, imageLoad(radianceImage, pixel) + vec4(shadowed, 0.0));
         imageStore(unshadowedImage, pixel, imageLoad(unshadowedImage, pixel) + vec4(reflected, 0.0));
     }

@@ -8,45 +8,8 @@
 #include <charconv>
 
 #include "studio/errors.h"
-#include "studio/workbench/reference_technique.h"
 
 namespace penumbra::studio {
-namespace {
-
-constexpr TechniqueInfo referenceInfo{"reference", "ray tracing (Embree): the truth, up to its stated noise",
-                                      0.01f};
-
-void logFromDevice(LogLevel level, std::string_view message) {
-    switch (level) {
-        case LogLevel::debug:
-            spdlog::debug("{}", message);
-            break;
-        case LogLevel::info:
-            spdlog::info("{}", message);
-            break;
-        case LogLevel::warning:
-            spdlog::warn("{}", message);
-            break;
-        case LogLevel::error:
-            spdlog::error("{}", message);
-            break;
-    }
-}
-
-}  // namespace
-
-std::vector<TechniqueInfo> allTechniques() {
-    const std::span<const TechniqueInfo> catalog = techniqueCatalog();
-    std::vector<TechniqueInfo> all(catalog.begin(), catalog.end());
-    all.push_back(referenceInfo);
-    return all;
-}
-
-std::string_view defaultTechnique() {
-    const bool hasAdaptive =
-        std::ranges::find(techniqueCatalog(), "adaptive", &TechniqueInfo::name) != techniqueCatalog().end();
-    return hasAdaptive ? "adaptive" : "hard";
-}
 
 Workbench::Workbench(std::optional<int> device)
     : context_(device), device_(DeviceOptions{.log = logFromDevice}), clock_(device_), frame_(device_) {
@@ -54,14 +17,7 @@ Workbench::Workbench(std::optional<int> device)
 }
 
 std::unique_ptr<Technique> Workbench::makeTechnique(std::string_view name) {
-    if (name == referenceInfo.name) return std::make_unique<ReferenceTechnique>();
-    if (std::ranges::find(techniqueCatalog(), name, &TechniqueInfo::name) == techniqueCatalog().end()) {
-        std::vector<std::string_view> names;
-        for (const TechniqueInfo& info : allTechniques()) names.push_back(info.name);
-        throw Error(Error::Kind::unknownName,
-                    fmt::format("there is no technique '{}'; there are: {}", name, fmt::join(names, ", ")));
-    }
-    return penumbra::makeTechnique(device_, name);
+    return makeAnyTechnique(device_, name);
 }
 
 void Workbench::open(const Scene& scene) {

@@ -14,6 +14,7 @@
 #include "studio/frame/frame_renderer.h"
 #include "studio/image/image.h"
 #include "studio/scene/scene.h"
+#include "studio/workbench/any_technique.h"
 #include "studio/workbench/cost_clock.h"
 
 namespace penumbra::studio {
@@ -40,13 +41,6 @@ struct PictureSize {
     int height_px = 720;
 };
 
-/// All names that `makeAnyTechnique` knows: the library's catalog and "reference".
-std::vector<TechniqueInfo> allTechniques();
-
-/// The technique that is used where none is asked for: adaptive light sampling, or hard while that is
-/// missing.
-std::string_view defaultTechnique();
-
 /// A device without a window, and a frame on it.
 class Workbench {
   public:
@@ -63,8 +57,7 @@ class Workbench {
     /// The scene that is open.
     GpuScene& scene() { return *scene_; }
 
-    /// A technique of the catalog, or the ray-traced reference. Throws Error::Kind::unknownName listing them
-    /// all.
+    /// See makeAnyTechnique.
     std::unique_ptr<Technique> makeTechnique(std::string_view name);
 
     /// Takes the scene in; it must outlive its use. Replaces the one before.
