@@ -277,6 +277,8 @@ bool belongsTo(int group, uint leaf) {
     return groups == 1 || ((leaf & EXACT_MASKED) != 0u ? groupOf(leaf & ~EXACT_MASKED) : 0) == group;
 }
 
+int groupOfRound() { return round_ / turnRounds % groups; }
+
 // The next round in which the group's textures are bound.
 int roundFor(int group) {
     int turn = round_ / turnRounds;
@@ -311,6 +313,7 @@ void main() {
     if (resumes) {
         if (states[base] == 0u || !inside) return;
         load(base, progress, sums);
+        if (progress.part % groups != groupOfRound()) return;  // has asked for a later round
     }
 
     Receiver receiver;
@@ -326,12 +329,12 @@ void main() {
         int face = window / light.counts.x, lattice = window - face * light.counts.x;
         bool isOn = face < patches;
         if (!anyOfUs(isOn)) break;
-        isPaused = group != (round_ / turnRounds) % groups;
+        isPaused = group != groupOfRound();
         if (isPaused) break;
         Patch patch_ = patchOf(seen, face, receiver.normalLight, toSurface);
         vec2 offset = light.offsets[lattice].xy;
         beginWith(patch_, receiver.normalLight, lattice, offset, toSurface);
-        for (int j = 0; j < ROWS && resumes; ++j) hidden[j] = states[base + uint(EXACT_STATE_WORDS + j)];
+        for (int j = 0; j < ROWS && resumes; ++j) hidden[j] |= states[base + uint(EXACT_STATE_WORDS + j)];
         resumes = false;
 
         bool isDark = !isOn || isAllHidden();
@@ -385,6 +388,7 @@ void main() {
         if (isLast) {
             progress.part += groups - 1 - group;
             addUp(sums, seen, patch_, receiver.normalLight, lattice, offset, isOn);
+            for (int j = 0; j < ROWS; ++j) hidden[j] = 0u;  // what is saved of a window that has not begun
             work += 32 * ROWS;
         }
         progress.next = isLast ? 0u : list.x;
