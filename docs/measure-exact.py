@@ -120,13 +120,49 @@ def plot(name, x_title, y_title, curves):
         line = " ".join(f"{x(a):.1f},{y(b):.1f}" for a, b in points)
         parts.append(f'<polyline points="{line}" fill="none" stroke="{color}" stroke-width="2"/>')
         parts += [f'<circle cx="{x(a):.1f}" cy="{y(b):.1f}" r="3.5" fill="{color}"/>' for a, b in points]
-        parts.append(f'<text x="{left + 10}" y="{top + 16 + 16 * k}" fill="{color}">{legend}</text>')
+        below = points[-1][1] > points[0][1]
+        line_y = height - bottom - 10 - 16 * k if below else top + 16 + 16 * k
+        parts.append(f'<text x="{width - right - 10}" y="{line_y}" text-anchor="end" fill="{color}">{legend}</text>')
     (PICTURES / f"exact-{name}.svg").write_text("\n".join(parts + ["</svg>", ""]))
     for legend, points in curves.items():
         print(f"{name}, {legend}: " + "  ".join(f"({a:,.6g}: {b:,.4g})" for a, b in points), flush=True)
 
 
+def draw_rows():
+    """A triangle over the light's lattice, row by row: 64 points, as src/techniques/exact_visibility tilts them."""
+    scale, middle, tilt, spacing = 150, 180, 0.6, 0.25
+    across = (math.cos(tilt) * spacing, -math.sin(tilt) * spacing)  # from point to point of a row
+    down = (-across[1], across[0])
+    at = lambda i, j: ((i + 0.5) * across[0] + (j + 0.5) * down[0], (i + 0.5) * across[1] + (j + 0.5) * down[1])
+    px = lambda p: f"{middle + scale * p[0]:.1f},{middle - scale * p[1]:.1f}"
+    corners = [(-0.75, -0.55), (1.15, -0.1), (-0.1, 0.8)]
+    parts = ['<svg xmlns="http://www.w3.org/2000/svg" width="360" height="360">', '<rect width="360" height="360" fill="white"/>',
+             f'<rect x="{middle - scale}" y="{middle - scale}" width="{2 * scale}" height="{2 * scale}" fill="#fff6dd" stroke="#b8902a"/>',
+             f'<polygon points="{" ".join(map(px, corners))}" fill="#2c5fa8" fill-opacity="0.25" stroke="#2c5fa8"/>']
+    for j in range(-7, 7):
+        ends = []
+        for k in range(3):
+            p, q = corners[k], corners[(k + 1) % 3]
+            # Height above the row's line, in units of rows.
+            hp, hq = ((c[0] * down[0] + c[1] * down[1]) / spacing**2 - j - 0.5 for c in (p, q))
+            if (hp > 0) != (hq > 0):
+                ends.append(tuple((p[i] * hq - q[i] * hp) / (hq - hp) for i in (0, 1)))
+        along = lambda p: p[0] * across[0] + p[1] * across[1]
+        ends.sort(key=along)
+        if ends:
+            parts.append(f'<polyline points="{px(ends[0])} {px(ends[1])}" stroke="#c0392b" stroke-width="1.5"/>')
+            parts += [f'<circle cx="{px(e).split(",")[0]}" cy="{px(e).split(",")[1]}" r="2.5" fill="#c0392b"/>' for e in ends]
+        for i in range(-7, 7):
+            p = at(i, j)
+            if max(map(abs, p)) < 1:
+                hidden = bool(ends) and along(ends[0]) < along(p) < along(ends[1])
+                x, y = px(p).split(",")
+                parts.append(f'<circle cx="{x}" cy="{y}" r="4" fill="{"#222" if hidden else "white"}" stroke="#222"/>')
+    (PICTURES / "exact-rows.svg").write_text("\n".join(parts + ["</svg>", ""]))
+
+
 def main():
+    draw_rows()
     with tempfile.TemporaryDirectory() as folder:
         light = ["--lights", write_light(folder, 1)]
         curves = {"exact": [], "hard": []}
