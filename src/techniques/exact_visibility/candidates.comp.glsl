@@ -8,8 +8,6 @@ layout(local_size_x = 32) in;
 #include "src/techniques/exact_visibility/tree.glsl"
 #include "src/techniques/exact_visibility/tiles.glsl"
 
-layout(std430, binding = 2) buffer Counters { uint triangleSum, largestTile, busyTiles, fullTiles; };
-
 struct Bounds {
     vec3 low, high;
     vec3 normal;        // of one of the receivers

@@ -16,7 +16,6 @@ constexpr const char* candidatesShader = "src/techniques/exact_visibility/candid
 constexpr const char* resolveShader = "src/techniques/exact_visibility/resolve.comp.glsl";
 constexpr int tile_px = 8;
 constexpr unsigned firstMaskUnit = 8;
-constexpr std::size_t maxMaskTextures = 8;
 
 // llvmpipe ends all loops of a shader, without a word, once an invocation has gone through 65,535 iterations;
 // the last triangle before a pause may take some hundred more than this. Elsewhere it is watchdogs that want
@@ -32,6 +31,13 @@ bool isPoint(const AreaLight& light) {
             return light.angle_rad == 0;
         default:
             return light.radius_m == 0;
+    }
+}
+
+void bindMaskGroup(std::span<const unsigned> textures, int group) {
+    for (std::size_t i = 0; i < EXACT_GROUP_TEXTURES; ++i) {
+        const std::size_t which = std::size_t(group) * EXACT_GROUP_TEXTURES + i;
+        glBindTextureUnit(firstMaskUnit + unsigned(i), which < textures.size() ? textures[which] : 0);
     }
 }
 
@@ -132,17 +138,16 @@ ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs,
     return result;
 }
 
-/// How many rounds it takes at most: every node visited, every triangle projected, every sample looked at.
-int ExactVisibility::roundsFor(int lattices, int rows, LightShape shape) const {
-    const bool isCone = shape == LightShape::sphere || shape == LightShape::distant;
-    const double parts = lattices * (isCone ? 6.0 : 1.0);
+/// How many rounds a turn takes at most: every node visited, every triangle projected, every sample looked
+/// at.
+int ExactVisibility::roundsFor(int rows, LightShape shape) const {
     const double samples = EXACT_MAX_ROWS * EXACT_MAX_ROWS;
     const double perTriangle = 6 + 3 * rows;
     const double perSpecialTriangle = perTriangle + samples;
     // Spheres may make any triangle special, flat lights those of casters on both sides of their planes.
     const double special = double(shape == LightShape::distant ? soup_.maskedCount() : soup_.triangleCount());
-    const double work = parts * (double(soup_.nodeCount()) + double(soup_.triangleCount()) * perTriangle +
-                                 special * perSpecialTriangle + 32.0 * rows);
+    const double work = double(soup_.nodeCount()) + double(soup_.triangleCount()) * perTriangle +
+                        special * perSpecialTriangle + 32.0 * rows;
     return int(std::min(1 + std::ceil(work / (roundWork_ - 1000)), 1e6));
 }
 
@@ -172,24 +177,20 @@ void ExactVisibility::allocate(int width_px, int height_px, int rows, int rounds
     if (rounds_.size_bytes() < rounds_bytes) rounds_ = gl::Buffer(rounds_bytes, "exact/rounds");
 }
 
-void ExactVisibility::bindMasks() {
+/// Writes down what each mask asks of its texture, and which that is; the result has each texture once.
+std::vector<unsigned> ExactVisibility::sendMasks() {
     std::vector<unsigned> textures;
     std::vector<glm::vec4> masks;
     for (const AlphaMask& mask : soup_.masks()) {
         auto it = std::ranges::find(textures, mask.texture);
         if (it == textures.end()) it = textures.insert(it, mask.texture);
-        masks.emplace_back(mask.factor, mask.cutoff, float(it - textures.begin()), 0);
-    }
-    if (textures.size() > maxMaskTextures) {
-        throw Error(Error::Kind::badArgument, "exact: casters have " + std::to_string(textures.size()) +
-                                                  " different alpha masks; it takes at most " +
-                                                  std::to_string(maxMaskTextures));
+        const auto which = int(it - textures.begin());
+        masks.emplace_back(mask.factor, mask.cutoff, which % EXACT_GROUP_TEXTURES,
+                           which / EXACT_GROUP_TEXTURES);
     }
     masks_.write(masks);
     masks_.bind(3);
-    for (std::size_t i = 0; i < maxMaskTextures; ++i) {
-        glBindTextureUnit(firstMaskUnit + unsigned(i), i < textures.size() ? textures[i] : 0);
-    }
+    return textures;
 }
 
 void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
@@ -201,8 +202,14 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
     const std::vector<LightLattice>& lattices = latticesFor(inputs.light);
     std::size_t rows = 0;
     for (const LightLattice& lattice : lattices) rows = std::max(rows, lattice.validRows.size());
-    const int rounds = roundsFor(int(lattices.size()), int(rows), inputs.light.shape);
-    allocate(out.width_px(), out.height_px(), int(rows), rounds);
+    const std::vector<unsigned> maskTextures = sendMasks();
+    // A turn for each group of alpha textures, for each lattice, in each of a cone's windows.
+    const int groups =
+        std::max(int(maskTextures.size() + EXACT_GROUP_TEXTURES - 1) / EXACT_GROUP_TEXTURES, 1);
+    const bool isCone = inputs.light.shape == LightShape::sphere || inputs.light.shape == LightShape::distant;
+    const int turns = groups * int(lattices.size()) * (isCone ? 6 : 1);
+    const int turnRounds = roundsFor(int(rows), inputs.light.shape);
+    allocate(out.width_px(), out.height_px(), int(rows), turns * turnRounds);
     auto resolve = resolve_.find(int(rows));
     if (resolve == resolve_.end()) {
         gl::Program program(device_.shaders, {resolveShader}, {"ROWS " + std::to_string(rows)});
@@ -235,7 +242,6 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
     {
         const auto pass = timers_.pass("exact/resolve");
         resolve->second.use();
-        bindMasks();
         bindVisibility(out, 0);
         errorBound_.bindImage(1, GL_WRITE_ONLY);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, states_.name());
@@ -243,10 +249,15 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, rounds_.name());
         glClearNamedBufferData(rounds_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
         glUniform1i(1, roundWork_);
+        glUniform1i(2, turnRounds);
+        glUniform1i(3, groups);
+        bindMaskGroup(maskTextures, 0);
         glUniform1i(0, 0);
         gl::dispatchPixels(out.width_px(), out.height_px());
-        for (int round = 1; round < rounds; ++round) {
-            // Without groups where nobody asked for the round.
+        for (int round = 1; round < turns * turnRounds; ++round) {
+            if (groups > 1 && round % turnRounds == 0)
+                bindMaskGroup(maskTextures, round / turnRounds % groups);
+            // Without work groups where nobody asked for the round.
             glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
             glUniform1i(0, round);
             glDispatchComputeIndirect(GLintptr(3 * sizeof(std::uint32_t)) * round);
@@ -270,8 +281,14 @@ Statistics ExactVisibility::statistics() const {
          counters.busyTiles > 0 ? double(counters.triangleSum) / counters.busyTiles : 0.0},
         {"most candidates in a tile", double(counters.largestTile)},
         {"tiles beyond their room", double(counters.fullTiles)},
+        {"penumbra pixels", double(counters.boundedPixels)},
+        {"mean error bound",
+         counters.boundedPixels > 0 ? counters.boundSum / 256.0 / counters.boundedPixels : 0.0},
+        {"largest error bound", counters.largestBound / 256.0},
         {"memory",
-         double(soup_.size_bytes() + lists_.size_bytes() + tiles_.size_bytes() + states_.size_bytes()) /
+         double(soup_.size_bytes() + lists_.size_bytes() + tiles_.size_bytes() + states_.size_bytes() +
+                rounds_.size_bytes() + weights_.size_bytes() +
+                2 * std::size_t(errorBound_.width_px()) * std::size_t(errorBound_.height_px())) /
              (1 << 20),
          "MiB"},
     };

@@ -5,8 +5,9 @@
 #pragma once
 
 #include <map>
-#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "penumbra/technique.h"
 #include "src/device_internals.h"
@@ -32,13 +33,14 @@ class ExactVisibility final : public Technique {
   private:
     struct Counters {
         std::uint32_t triangleSum = 0, largestTile = 0, busyTiles = 0, fullTiles = 0;
+        std::uint32_t boundedPixels = 0, boundSum = 0, largestBound = 0;
     };
 
     void allocate(int width_px, int height_px, int rows, int rounds);
-    int roundsFor(int lattices, int rows, LightShape shape) const;
+    int roundsFor(int rows, LightShape shape) const;
     const std::vector<LightLattice>& latticesFor(const AreaLight& light);
     ExactLight describeLight(const ShadowInputs& inputs, std::span<const LightLattice> lattices) const;
-    void bindMasks();
+    std::vector<unsigned> sendMasks();
 
     int samples_ = 64;
     int weight_ = 0;

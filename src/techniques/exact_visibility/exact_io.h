@@ -26,6 +26,8 @@ using glm::vec4;
 #define EXACT_MAX_ROWS 24     // of a lattice, and bits in a row
 #define EXACT_MAX_LATTICES 4  // what more than 256 samples are split into
 
+#define EXACT_GROUP_TEXTURES 8  // alpha textures that are bound at a time
+
 #define EXACT_STATE_WORDS 13  // of a receiver whose work is not done, before the rows
 
 struct ExactLight {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Holes of alpha-masked casters.
 layout(binding = 5) uniform usamplerBuffer maskedTriangles;
-layout(std430, binding = 3) readonly buffer Masks { vec4 masks[]; };  // x: factor; y: cutoff; z: which texture
-layout(binding = 8) uniform sampler2D alphaTextures[8];
+// x: factor; y: cutoff; z: which texture, w: of which group. The textures of one group are bound at a time.
+layout(std430, binding = 3) readonly buffer Masks { vec4 masks[]; };
+layout(binding = 8) uniform sampler2D alphaTextures[EXACT_GROUP_TEXTURES];
 
 float alphaOf(int which, vec2 uv) {
     // Samplers may only be indexed by what is the same for all.
@@ -18,9 +19,13 @@ float alphaOf(int which, vec2 uv) {
     }
 }
 
+int placeOf(uint triangle) { return int(texelFetch(triangles, int(3u * triangle)).w); }
+
+int groupOf(uint triangle) { return int(masks[texelFetch(maskedTriangles, 2 * placeOf(triangle) + 1).w].w); }
+
 // Whether the triangle blocks light at a point of it, given as the shares of its corners.
 bool isSolid(uint triangle, vec3 share) {
-    int place = int(texelFetch(triangles, int(3u * triangle)).w);
+    int place = placeOf(triangle);
     uvec4 low = texelFetch(maskedTriangles, 2 * place), high = texelFetch(maskedTriangles, 2 * place + 1);
     vec2 uv = share.x * uintBitsToFloat(low.xy) + share.y * uintBitsToFloat(low.zw) + share.z * uintBitsToFloat(high.xy);
     vec4 mask = masks[high.w];

@@ -20,11 +20,14 @@ layout(binding = 1, r16f) uniform writeonly image2D errorBound;
 layout(binding = 6) uniform sampler2D radiance;
 
 // Work is done in rounds, each of a bounded number of iterations: those who are not done leave what they know here and
-// ask for another round.
+// ask for another round. Rounds come in turns, one after the other for each group of alpha textures: as many as can be
+// bound at a time. A part of the work is one window, one lattice and one group.
 layout(std430, binding = 4) buffer States { uint states[]; };
 layout(std430, binding = 5) buffer Rounds { uint roundGroups[]; };  // three numbers a round, for indirect dispatch
 layout(location = 0) uniform int round_;
 layout(location = 1) uniform int roundWork;
+layout(location = 2) uniform int turnRounds;
+layout(location = 3) uniform int groups;
 #define STATE_WORDS (EXACT_STATE_WORDS + ROWS)
 int work = 0;
 
@@ -232,7 +235,7 @@ void addUp(inout Sums sums, SeenLight seen, Patch patch_, vec3 normal, int latti
 
 // A place in the work of a receiver.
 struct Progress {
-    int part;  // which lattice, of which patch
+    int part;  // which group, of which lattice, of which patch
     uint next, special;  // candidates
     Walk walk;
 };
@@ -269,6 +272,21 @@ void load(uint base, out Progress progress, out Sums sums) {
     sums.samples = uintBitsToFloat(states[base + 12u]);
 }
 
+// In which of the group's turns a triangle is looked at: one with holes when its texture is bound, all others first.
+bool belongsTo(int group, uint leaf) {
+    return groups == 1 || ((leaf & EXACT_MASKED) != 0u ? groupOf(leaf & ~EXACT_MASKED) : 0) == group;
+}
+
+int groupOfRound() { return round_ / turnRounds % groups; }
+
+// The next round in which the group's textures are bound.
+int roundFor(int group) {
+    int turn = round_ / turnRounds;
+    int wait = (group - turn % groups + groups) % groups;
+    if (wait == 0 && (round_ + 1) / turnRounds == turn) return round_ + 1;
+    return (turn + (wait == 0 ? groups : wait)) * turnRounds;
+}
+
 Shaft shaftFrom(vec3 apex) {
     bool isDistant = shapeOfLight() == EXACT_DISTANT;
     Shaft shaft;
@@ -295,6 +313,7 @@ void main() {
     if (resumes) {
         if (states[base] == 0u || !inside) return;
         load(base, progress, sums);
+        if (progress.part % groups != groupOfRound()) return;  // has asked for a later round
     }
 
     Receiver receiver;
@@ -305,14 +324,17 @@ void main() {
     int patches = receives ? seen.patches : 0;
 
     bool isPaused = false;
-    for (; progress.part < 6 * light.counts.x; ++progress.part) {
-        int face = progress.part / light.counts.x, lattice = progress.part - face * light.counts.x;
+    for (; progress.part < 6 * light.counts.x * groups; ++progress.part) {
+        int window = progress.part / groups, group = progress.part - window * groups;
+        int face = window / light.counts.x, lattice = window - face * light.counts.x;
         bool isOn = face < patches;
         if (!anyOfUs(isOn)) break;
+        isPaused = group != groupOfRound();
+        if (isPaused) break;
         Patch patch_ = patchOf(seen, face, receiver.normalLight, toSurface);
         vec2 offset = light.offsets[lattice].xy;
         beginWith(patch_, receiver.normalLight, lattice, offset, toSurface);
-        for (int j = 0; j < ROWS && resumes; ++j) hidden[j] = states[base + uint(EXACT_STATE_WORDS + j)];
+        for (int j = 0; j < ROWS && resumes; ++j) hidden[j] |= states[base + uint(EXACT_STATE_WORDS + j)];
         resumes = false;
 
         bool isDark = !isOn || isAllHidden();
@@ -344,7 +366,7 @@ void main() {
                 TreeNode visited = loadNode(isListed ? 0u : progress.walk.node);
                 leaf = isListed ? candidates[first + capacity - 1u - progress.special] : visited.leaf;
                 bool isHit = isListed || anyOfUs(!isDark && mayBlock(shaft, visited.boxMin, visited.boxMax));
-                bool isBlocker = isListed || (isHit && isTriangle(visited));
+                bool isBlocker = (isListed || (isHit && isTriangle(visited))) && belongsTo(group, leaf);
                 if (!isListed) progress.walk = advance(progress.walk, visited, isHit);
                 progress.special += isListed ? 1u : 0u;
                 blocker = loadBlocker(isBlocker ? leaf & ~EXACT_MASKED : 0u, apex, patch_);
@@ -361,9 +383,15 @@ void main() {
         isPaused = !isOver(progress, list) && anyOfUs(!isDark);
         if (isPaused) break;
 
-        addUp(sums, seen, patch_, receiver.normalLight, lattice, offset, isOn);
-        work += 32 * ROWS;
-        progress.next = 0u;
+        // What is all hidden stays so: the other groups need not be asked.
+        bool isLast = group == groups - 1 || !anyOfUs(!isDark);
+        if (isLast) {
+            progress.part += groups - 1 - group;
+            addUp(sums, seen, patch_, receiver.normalLight, lattice, offset, isOn);
+            for (int j = 0; j < ROWS; ++j) hidden[j] = 0u;  // what is saved of a window that has not begun
+            work += 32 * ROWS;
+        }
+        progress.next = isLast ? 0u : list.x;
         progress.special = 0u;
         progress.walk = Walk(list.z, list.w);
     }
@@ -371,15 +399,23 @@ void main() {
     if (!inside) return;
     if (isPaused) {
         save(base, progress, sums);
-        uvec2 groups = uvec2(view.size_px.xy + 7) / 8u;
-        atomicMax(roundGroups[3 * round_ + 3], groups.x);
-        atomicMax(roundGroups[3 * round_ + 4], groups.y);
-        atomicMax(roundGroups[3 * round_ + 5], 1u);
+        uvec2 size = uvec2(view.size_px.xy + 7) / 8u;
+        int next = 3 * roundFor(progress.part % groups);
+        atomicMax(roundGroups[next], size.x);
+        atomicMax(roundGroups[next + 1], size.y);
+        atomicMax(roundGroups[next + 2], 1u);
         return;
     }
     states[base] = 0u;
     vec3 value = mix(vec3(0.0), sums.seen / max(sums.whole, vec3(1e-37)), greaterThan(sums.whole, vec3(0.0)));
     if (!receives) value = vec3(1.0);
     imageStore(visibility, pixel, vec4(clamp(value, 0.0, 1.0), 1.0));
-    imageStore(errorBound, pixel, vec4(sums.samples > 0.0 ? min(0.5 * sums.borders / sums.samples, 1.0) : 0.0));
+    float bound = sums.samples > 0.0 ? min(0.5 * sums.borders / sums.samples, 1.0) : 0.0;
+    imageStore(errorBound, pixel, vec4(bound));
+    if (bound > 0.0) {
+        uint parts = uint(ceil(256.0 * bound));
+        atomicAdd(boundedPixels, 1u);
+        atomicAdd(boundSum, parts);
+        atomicMax(largestBound, parts);
+    }
 }
