@@ -16,56 +16,76 @@ layout(binding = 0) uniform writeonly image2D visibility;
 const float offPlane = 0.167;
 const float sameNormal = 0.75;
 
-// 0: another surface.
-float kinship(Receiver pixel, ivec2 texel, out float distance_m) {
+const float nowhere = 3e38;
+
+// Whether the texel lies on the pixel's surface. How far it is in any case: far, where it is on another.
+bool isKin(Receiver pixel, ivec2 texel, out float distance_m) {
     Receiver other;
-    distance_m = uintBitsToFloat(0x7f800000u);
-    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, volume.buffer_px.xy))) return 0.0;
-    if (!loadLiftedReceiver(texel, other)) return 0.0;
+    distance_m = nowhere;
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, volume.buffer_px.xy))) return false;
+    if (!loadLiftedReceiver(texel, other)) return false;
     vec3 way = other.posLight - pixel.posLight;
-    float reach = length(way);
+    distance_m = length(way);
     float rounding = 1e-5 * length(pixel.posLight);
-    if (dot(pixel.normalLight, other.normalLight) < sameNormal ||
-        abs(dot(pixel.normalLight, way)) > offPlane * reach + rounding) {
-        distance_m = reach * 1e6;  // to be taken only where no texel around is any better
-        return 0.0;
-    }
-    distance_m = reach;
-    return 1.0;
+    bool kin = dot(pixel.normalLight, other.normalLight) >= sameNormal &&
+               abs(dot(pixel.normalLight, way)) <= offPlane * distance_m + rounding;
+    // To be taken only where no texel around is any better.
+    if (!kin) distance_m *= 1e6;
+    return kin;
+}
+
+vec3 texelAt(ivec2 texel) { return texelFetch(vBuffer, clamp(texel, ivec2(0), volume.buffer_px.xy - 1), 0).rgb; }
+
+shared vec3 around[64];
+shared uint differences;
+
+// Whether all texels that any pixel of the group may take from are equal. Then it does not matter which they are, and
+// most groups are done.
+bool isUniform(int scale) {
+    ivec2 first = ivec2(gl_WorkGroupID.xy) * 8 / scale - 1;
+    int width = 8 / scale + 3;
+    int lane = int(gl_LocalInvocationIndex);
+    around[lane] = texelAt(first + ivec2(lane % width, lane / width));
+    if (lane == 0) differences = 0u;
+    barrier();
+    if (lane < width * width && around[lane] != around[0]) atomicOr(differences, 1u);
+    barrier();
+    return differences == 0u;
 }
 
 void main() {
+    int scale = volume.buffer_px.z;
+    bool isSame = isUniform(scale);
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
     Receiver receiver;
-    vec3 seen = vec3(1.0);
-    if (loadReceiver(pixel, receiver)) {
-        int scale = volume.buffer_px.z;
-        ivec2 first = pixel / scale;
-        vec2 part = vec2(pixel - first * scale) / float(scale);
-        vec3 sum = vec3(0.0);
-        float weights = 0.0, nearest = uintBitsToFloat(0x7f800000u), distance_m;
-        for (int y = 0; y < 2; ++y) {
-            for (int x = 0; x < 2; ++x) {
-                vec2 share = mix(1.0 - part, part, vec2(x, y));
-                float weight = share.x * share.y * kinship(receiver, first + ivec2(x, y), distance_m);
-                sum += weight * texelFetch(vBuffer, first + ivec2(x, y), 0).rgb;
-                weights += weight;
-            }
-        }
-        if (weights > 0.0) {
-            seen = sum / weights;
-        } else {
-            // A surface thinner than a texel: its nearest texel in a wider ring, if it has one.
-            for (int y = -1; y < 3; ++y) {
-                for (int x = -1; x < 3; ++x) {
-                    kinship(receiver, first + ivec2(x, y), distance_m);
-                    if (distance_m < nearest) {
-                        nearest = distance_m;
-                        seen = texelFetch(vBuffer, first + ivec2(x, y), 0).rgb;
-                    }
-                }
-            }
+    bool isReceiver = loadReceiver(pixel, receiver);
+    vec3 seen = isReceiver ? around[0] : vec3(1.0);
+
+    // Loops that are not entered cost nothing, even where branches do.
+    int near = isSame || !isReceiver ? 0 : 4;
+    ivec2 first = pixel / scale;
+    vec2 part = vec2(pixel - first * scale) / float(scale);
+    vec3 sum = vec3(0.0);
+    float weights = 0.0, distance_m;
+    for (int i = 0; i < near; ++i) {
+        ivec2 step = ivec2(i & 1, i >> 1);
+        vec2 share = mix(1.0 - part, part, vec2(step));
+        float weight = isKin(receiver, first + step, distance_m) ? share.x * share.y : 0.0;
+        sum += weight * texelAt(first + step);
+        weights += weight;
+    }
+    if (weights > 0.0) seen = sum / weights;
+
+    // A surface thinner than a texel: its nearest texel in a wider ring, if it has one.
+    int ring = near > 0 && weights == 0.0 ? 16 : 0;
+    float nearest = nowhere;
+    for (int i = 0; i < ring; ++i) {
+        ivec2 texel = first + ivec2(i & 3, i >> 2) - 1;
+        isKin(receiver, texel, distance_m);
+        if (distance_m < nearest) {
+            nearest = distance_m;
+            seen = texelAt(texel);
         }
     }
     imageStore(visibility, pixel, vec4(seen, 1.0));
