@@ -65,22 +65,34 @@ int firstSampleFrom(float direction) {
     return low % SAMPLES;
 }
 
-// Adds what an edge changes on the way from the light's centre to each of its points. Returns how many points it looked
-// at.
-uint addEdge(LightFrame frame, Receiver receiver, vec2 top, LightEdge edge) {
+// An edge as a receiver sees it.
+struct SeenEdge {
+    vec2 a, b;  // its ends in unit space
+    float turn;  // around the light's centre from a to b
+    int change;  // in the number of layers from the centre to a point beyond
+};
+
+// False where it hides nothing from the receiver: of the edges that matter to a tile, few do to each of its receivers.
+bool seeEdge(LightFrame frame, Receiver receiver, LightEdge edge, out SeenEdge seen) {
     vec4 p = vec4(receiver.posLight, 1.0);
     float weight = sign(dot(edge.planes[0], p)) + sign(dot(edge.planes[1], p));
     vec3 a, b;
-    if (weight == 0.0 || !edgeBeforeLight(frame, receiver.posLight, edge.aLight.xyz, edge.bLight.xyz, a, b)) return 0u;
-    a.xy /= a.z;
-    b.xy /= b.z;
-    float turn = a.x * b.y - a.y * b.x;
-    if (turn == 0.0) return 0u;
-    int change = int(sign(turn) * weight * frame.handedness);
-    leastChange = min(leastChange, abs(change));
-    meanChangeFixed += change * int(shareBeyond(a.xy, b.xy) * fixedOne + 0.5);
+    bool isBefore = edgeBeforeLight(frame, receiver.posLight, edge.aLight, edge.bLight, a, b);
+    seen.a = a.xy / a.z;
+    seen.b = b.xy / b.z;
+    seen.turn = seen.a.x * seen.b.y - seen.a.y * seen.b.x;
+    seen.change = int(sign(seen.turn) * weight * frame.handedness);
+    return isBefore && seen.change != 0;
+}
+
+// Adds what an edge changes on the way from the light's centre to each of its points. Returns how many points it looked
+// at.
+uint addEdge(LightFrame frame, vec2 top, SeenEdge edge) {
+    vec2 a = edge.a, b = edge.b;
+    leastChange = min(leastChange, abs(edge.change));
+    meanChangeFixed += edge.change * int(shareBeyond(a, b) * fixedOne + 0.5);
     // Only points in the directions between the edge's ends can lie behind it; they follow each other in the list.
-    float first = directionOf(turn > 0.0 ? a.xy : b.xy), last = directionOf(turn > 0.0 ? b.xy : a.xy);
+    float first = directionOf(edge.turn > 0.0 ? a : b), last = directionOf(edge.turn > 0.0 ? b : a);
     float span = fract(last - first) + 2.0 * directionRounding;
     first = fract(first - directionRounding);
     int start = firstSampleFrom(first);
@@ -88,9 +100,9 @@ uint addEdge(LightFrame frame, Receiver receiver, vec2 top, LightEdge edge) {
     for (; n < SAMPLES; ++n) {
         int i = start + n < SAMPLES ? start + n : start + n - SAMPLES;
         if (fract(samples[i].w - first) > span) break;
-        changes[i] += isCrossed(a.xy, b.xy, turn, samplePlace(frame, i)) ? change : 0;
+        changes[i] += isCrossed(a, b, edge.turn, samplePlace(frame, i)) ? edge.change : 0;
     }
-    changeAtTop += isCrossed(a.xy, b.xy, turn, top) ? change : 0;
+    changeAtTop += isCrossed(a, b, edge.turn, top) ? edge.change : 0;
     ++edgesCounted;
     return uint(n);
 }

@@ -99,14 +99,23 @@ uint listMattering(uint word, uint bits) {
 
 // Returns how many iterations no invocation has exceeded.
 uint addMattering(LightFrame frame, Receiver receiver, vec2 top, bool seesLight, uint count) {
+    SeenEdge edge;
     uint most = 0u;
-    for (uint i = 0u; i < count && seesLight; ++i) {
-        most = max(most, addEdge(frame, receiver, top, lightEdges[mattering[i]]));
+    for (uint first = 0u; first < count && seesLight; first += 32u) {
+        // Which of them hide something from this receiver, that those alone cost what an edge costs.
+        uint bits = 0u;
+        for (uint i = 0u; i < min(32u, count - first); ++i) {
+            if (seeEdge(frame, receiver, lightEdges[mattering[first + i]], edge)) bits |= 1u << i;
+        }
+        for (; bits != 0u; bits &= bits - 1u) {
+            seeEdge(frame, receiver, lightEdges[mattering[first + uint(findLSB(bits))]], edge);
+            most = max(most, addEdge(frame, top, edge));
+        }
     }
     atomicMax(mostPoints, most);
     barrier();
-    // Fourteen: an edge's own loops, the search for its first point and the clipping.
-    return count * (mostPoints + 14u);
+    // Sixteen: an edge's own loops, the search for its first point and the clipping.
+    return count * (mostPoints + 16u);
 }
 
 void main() {

@@ -29,15 +29,16 @@ Scene withIndices(Scene scene, const std::function<void(std::vector<std::uint32_
     return scene;
 }
 
-/// The half-plane's scene with a sheet of n x n separate triangles for a blocker, each half of its cell: V is a half
-/// wherever the light is seen through the sheet alone.
+/// The half-plane's scene with a sheet of n x n separate triangles for a blocker, each half of its cell: V is
+/// a half wherever the light is seen through the sheet alone.
 Scene sheetOfConfetti(int n, float size_m) {
     Scene scene = makeBuiltin("half-plane");
     Mesh& mesh = *std::ranges::find(scene.meshes, "half-plane", &Mesh::name);
     mesh = {.name = mesh.name, .material = mesh.material};
     const auto corner = [&](int i, int j) {
         // The mesh stands at x = -10 m.
-        return glm::vec3(10 + size_m * (float(i) / float(n) - 0.5f), 0, size_m * (float(j) / float(n) - 0.5f));
+        return glm::vec3(10 + size_m * (float(i) / float(n) - 0.5f), 0,
+                         size_m * (float(j) / float(n) - 0.5f));
     };
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < n; ++j) {
@@ -195,8 +196,8 @@ TEST_F(SoftVolumesTest, WindingAndDuplicatesAreNothingToIt) {
 }
 
 TEST_F(SoftVolumesTest, TilesOfVeryManyEdgesTakeSeveralRounds) {
-    // 43,200 edges, nearly all of which a tile in the middle sees: many more than an invocation can go through
-    // on llvmpipe, which would leave the rest out.
+    // 43,200 edges, nearly all of which a tile in the middle sees: many more than an invocation can go
+    // through on llvmpipe, which would leave the rest out.
     constexpr PictureSize few{32, 24};
     const Scene scene = sheetOfConfetti(120, 0.8f);
     const LightResult result = render("soft-volumes", scene, few);
@@ -220,6 +221,46 @@ TEST_F(SoftVolumesTest, SmallerVBuffersDoNotBleed) {
         // wide.
         EXPECT_LE(metrics.false_shadow, 0.02) << part;
         EXPECT_LE(shareOfDifferentPixels(full, result, 0.25f), 0.03) << part;
+    }
+}
+
+TEST_F(SoftVolumesTest, FrameBudgetChoosesTheVBuffersSize) {
+    constexpr PictureSize small{64, 48};
+    const Scene scene = makeBuiltin("two-boxes");
+    const std::unique_ptr<Technique> technique = workbench().makeTechnique("soft-volumes");
+    const auto after = [&](const char* budget_ms) {
+        setParameter(*technique, "frame_budget_ms", budget_ms);
+        LightResult last;
+        // Two steps, each after the times of five frames.
+        for (int frame = 0; frame < 13; ++frame) last = render(*technique, scene, small);
+        return last.visibility.values;
+    };
+    const auto ofSize = [&](const char* part) {
+        return render("soft-volumes", scene, small, {{"v_buffer", part}}).visibility.values;
+    };
+    // No machine keeps to the first, and any to the second.
+    EXPECT_EQ(after("0.0001"), ofSize("quarter"));
+    EXPECT_EQ(after("1e6"), ofSize("full"));
+    EXPECT_NE(ofSize("full"), ofSize("quarter"));
+}
+
+// Half of the light is in the box: faces cross its plane, and what they hide ends where they cut it.
+TEST_F(SoftVolumesTest, FacesThroughTheLightAreNearTheReference) {
+    for (const LightShape shape : {LightShape::rect, LightShape::disk}) {
+        for (const bool twoSided : {false, true}) {
+            const Scene scene = withLight(makeBuiltin("two-boxes"), [&](Light& light) {
+                auto& place = light.shape.worldFromLight.columns[3];
+                place = {0.35f + 0.9f, 0.8f, 0.1f, 1};
+                light.shape.shape = shape;
+                light.shape.width_m = light.shape.height_m = 0.8f;
+                light.shape.radius_m = 0.4f;
+                light.shape.twoSided = twoSided;
+            });
+            const VisibilityMetrics metrics = judge(truth(scene, size), render("soft-volumes", scene, size));
+            // 64 points and 256 rays, and no exact mean where blockers are of different depth.
+            EXPECT_LE(metrics.rmse, 0.03) << int(shape) << twoSided;
+            EXPECT_LE(metrics.mae, 0.01) << int(shape) << twoSided;
+        }
     }
 }
 

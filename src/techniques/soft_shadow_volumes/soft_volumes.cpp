@@ -6,6 +6,13 @@
 #include <limits>
 
 namespace penumbra {
+namespace {
+
+constexpr std::array<std::string_view, 3> sizePasses = {
+    "soft-volumes at full size", "soft-volumes at half size", "soft-volumes at quarter size"};
+constexpr int framesToSettle = 5;  // one more than PassTimers keeps in flight
+
+}  // namespace
 
 SoftVolumes::SoftVolumes(Device& device)
     : isSoftware_(device.internals().isSoftware),
@@ -13,6 +20,8 @@ SoftVolumes::SoftVolumes(Device& device)
       layers_(device),
       wedges_(device),
       hardResolve_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/hard_volumes.comp.glsl"}),
+      upsampleEven_(device.internals().shaders,
+                    {"src/techniques/soft_shadow_volumes/upsample_even.comp.glsl"}),
       upsample_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/upsample.comp.glsl"}),
       constants_("soft-volumes/constants"),
       alphaMaskWarning_(device) {
@@ -37,7 +46,7 @@ void SoftVolumes::describe(ParameterVisitor& visitor) {
     visitor.real({.name = "frame_budget_ms",
                   .unit = "ms",
                   .help = "device time that the V-buffer's size is chosen to keep to; 0: v_buffer says"},
-                 frameBudget_ms_, {0, 1000});
+                 frameBudget_ms_, {0, 1e9f});
     visitor.choice(
         {.name = "counting",
          .help = "which sides of shadow volumes are counted: auto takes z-pass, the cheaper one, unless the "
@@ -61,11 +70,18 @@ void SoftVolumes::resolveHard(const VisibilityBuffer& out) {
 
 int SoftVolumes::chooseSize() {
     if (frameBudget_ms_ <= 0) return vBufferSize_;
-    double total_ms = 0;
-    for (const PassTime& pass : passTimes(timers_)) total_ms += pass.milliseconds;
+    // Times arrive some frames late; until then those at hand are of an earlier visit to this size.
+    if (++framesAtSize_ <= framesToSettle) return budgetedSize_;
+    double frame_ms = 0;
+    for (const gl::PassTimers::Result& size : sizeTimers_.latest()) {
+        if (size.name == sizePasses[std::size_t(budgetedSize_)]) frame_ms = size.milliseconds;
+    }
     // A step changes the cost by four at most: below a fifth of the budget there is room for the larger size.
-    if (total_ms > frameBudget_ms_) budgetedSize_ = std::min(budgetedSize_ + 1, 2);
-    if (total_ms > 0 && total_ms < 0.2 * frameBudget_ms_) budgetedSize_ = std::max(budgetedSize_ - 1, 0);
+    const int wanted = frame_ms > frameBudget_ms_         ? budgetedSize_ + 1
+                       : frame_ms < 0.2 * frameBudget_ms_ ? budgetedSize_ - 1
+                                                          : budgetedSize_;
+    if (std::clamp(wanted, 0, 2) != budgetedSize_) framesAtSize_ = 0;
+    budgetedSize_ = std::clamp(wanted, 0, 2);
     return budgetedSize_;
 }
 
@@ -80,18 +96,32 @@ void SoftVolumes::allocateVBuffer(glm::ivec2 size_px, GLenum format) {
 
 void SoftVolumes::upsample(const VisibilityBuffer& out) {
     const auto pass = timers_.pass("soft-volumes/upsample");
-    upsample_.use();
+    const std::size_t tiles = std::size_t((out.width_px() + 7) / 8) * std::size_t((out.height_px() + 7) / 8);
+    const std::size_t size_bytes = (3 + tiles) * sizeof(GLuint);
+    if (mixedTiles_.size_bytes() < size_bytes)
+        mixedTiles_ = gl::Buffer(size_bytes, "soft-volumes/mixed tiles");
+    const std::array<GLuint, 3> none = {0, 1, 1};
+    mixedTiles_.write(std::as_bytes(std::span(none)));
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, mixedTiles_.name());
     vBuffer_.bind(3);
     counter_.depth().bind(4);
     bindVisibility(out, 0);
+    upsampleEven_.use();
     gl::dispatchPixels(out.width_px(), out.height_px());
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                    GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    upsample_.use();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, mixedTiles_.name());
+    glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     checkInputs(inputs, out);
     alphaMaskWarning_.check(inputs.casters);
-    const int pixelsPerTexel = hasNoSize(inputs.light) ? 1 : 1 << chooseSize();
+    const int size = hasNoSize(inputs.light) ? 0 : chooseSize();
+    const int pixelsPerTexel = 1 << size;
+    const auto frameTime = sizeTimers_.pass(sizePasses[std::size_t(size)]);
     VolumeFrame frame(inputs, pixelsPerTexel);
     const bool wedges = method_ == int(Method::wedges) && !hasNoSize(inputs.light);
     if (wedges) {

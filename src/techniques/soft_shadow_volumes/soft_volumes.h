@@ -35,17 +35,20 @@ class SoftVolumes final : public Technique {
     int vBufferSize_ = 0;       // full, half, quarter
     float frameBudget_ms_ = 0;  // 0: none
     int budgetedSize_ = 0;      // the size that the budget has led to
+    int framesAtSize_ = 0;      // since then
 
     const bool isSoftware_;
     VolumeCounter counter_;
     TileLayers layers_;
     WedgeRaster wedges_;
-    gl::Program hardResolve_, upsample_;
+    gl::Program hardResolve_, upsampleEven_, upsample_;
     ViewBinding view_;
     gl::ConstantBuffer<VolumeConstants> constants_;
     gl::Texture vBuffer_;
+    gl::Buffer mixedTiles_;  // of the picture, that upsample_ has to look at
     AlphaMaskWarning alphaMaskWarning_;
     gl::PassTimers timers_;
+    gl::PassTimers sizeTimers_;  // whole frames, a pass for each size of the V-buffer
 };
 
 }  // namespace penumbra

@@ -74,17 +74,22 @@ unsigned edgesAtOnce(int samples) {
 TileLayers::TileLayers(Device& device)
     : device_(device.internals()),
       gather_(device_.shaders, {shader("soft_gather")}),
+      cuts_(device_.shaders, {shader("soft_cuts")}),
       bounds_(device_.shaders, {shader("soft_bounds")}),
       lists_(device_.shaders, {shader("soft_lists")}),
       radiance_(device_.shaders, {shader("soft_radiance")}) {}
 
 void TileLayers::prepare(VolumeFrame& frame, Effort effort) {
     effort_ = effort;
-    // An edge of n faces is kept as at most (n + 1) / 2 records.
     recordCount_ = 0;
-    for (const SilhouetteSource& source : frame.sources) {
-        const EdgeMesh& edges = edgesOf(*source.mesh);
-        recordCount_ += (edges.edgeCount() + edges.faces().size_bytes() / sizeof(uint)) / 2 + 1;
+    for (std::size_t i = 0; i < frame.sources.size(); ++i) {
+        const Mesh& mesh = *frame.sources[i].mesh;
+        const EdgeMesh& edges = edgesOf(mesh);
+        // An edge of n faces is kept as at most (n + 1) / 2 records; where the light cuts it, on both of its
+        // sides, and each triangle may have its cut.
+        const std::size_t records = (edges.edgeCount() + edges.faces().size_bytes() / sizeof(uint)) / 2;
+        const std::size_t cutRecords = frame.cutsLight[i] ? records + 2 * mesh.indices().size() / 3 : 0;
+        recordCount_ += records + cutRecords;
     }
     reserve(lightEdges_, recordCount_ * sizeof(LightEdge), "soft-volumes/edges");
 
@@ -145,15 +150,28 @@ void TileLayers::gatherEdges(const VolumeFrame& frame, const VolumeCounter& coun
     gather_.use();
     bindStorage(2, counter.eye());
     bindStorage(5, lightEdges_);
-    for (const SilhouetteSource& source : frame.sources) {
-        const EdgeMesh& edges = edgesOf(*source.mesh);
+    const auto bindMesh = [](const SilhouetteSource& source) {
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, source.mesh->positionBuffer());
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, source.mesh->indexBuffer());
+        glUniformMatrix4fv(0, 1, GL_FALSE, glm::value_ptr(glm::mat4(source.lightFromMesh)));
+    };
+    const auto dispatchEach = [](std::size_t count) {
+        glUniform1ui(4, GLuint(count));
+        if (count > 0) glDispatchCompute(GLuint(count + 255) / 256, 1, 1);
+    };
+    for (std::size_t i = 0; i < frame.sources.size(); ++i) {
+        const EdgeMesh& edges = edgesOf(*frame.sources[i].mesh);
+        bindMesh(frame.sources[i]);
         bindStorage(3, edges.edges());
         bindStorage(4, edges.faces());
-        glUniformMatrix4fv(0, 1, GL_FALSE, glm::value_ptr(glm::mat4(source.lightFromMesh)));
-        glUniform1ui(4, GLuint(edges.edgeCount()));
-        if (edges.edgeCount() > 0) glDispatchCompute(GLuint(edges.edgeCount() + 63) / 64, 1, 1);
+        glUniform1i(5, frame.cutsLight[i]);
+        dispatchEach(edges.edgeCount());
+    }
+    cuts_.use();
+    for (std::size_t i = 0; i < frame.sources.size(); ++i) {
+        if (!frame.cutsLight[i]) continue;
+        bindMesh(frame.sources[i]);
+        dispatchEach(frame.sources[i].mesh->indices().size() / 3);
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -179,9 +197,9 @@ void TileLayers::resolve(const VolumeFrame& frame, const VolumeCounter& counter)
     const glm::ivec4 tiles = frame.constants.tiles;
     const int rows = (frame.constants.buffer_px.y + smallTile_px - 1) / smallTile_px;
     // A round does `roundWork`, unless nothing is left; all there may be is every edge, for every point. The
-    // shader counts 14 besides for an edge, and 32 for looking through 64 words of a list, which it does once
+    // shader counts 16 besides for an edge, and 32 for looking through 64 words of a list, which it does once
     // more in each round.
-    const double work = double(recordCount_) * (sampleCount_ + 14) + 32.0 * (tiles.w / 64 + 1);
+    const double work = double(recordCount_) * (sampleCount_ + 16) + 32.0 * (tiles.w / 64 + 1);
     const int rounds = 1 + int(work / (effort_.roundWork - 32));
     const int fitting =
         std::max(int(largestStates_bytes / (stateBytes(sampleCount_) * std::size_t(tiles.x))), 1);

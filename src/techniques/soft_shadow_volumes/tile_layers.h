@@ -46,7 +46,7 @@ class TileLayers {
     void resolve(const VolumeFrame& frame, const VolumeCounter& counter);
 
     Device::Internals& device_;
-    gl::Program gather_, bounds_, lists_, radiance_, resolve_;
+    gl::Program gather_, cuts_, bounds_, lists_, radiance_, resolve_;
     gl::Buffer lightEdges_, tileBounds_, tileLists_, samplePlaces_, sampleRadiances_, states_, rounds_;
     gl::Texture edgeCounts_;
     Effort effort_;

@@ -8,6 +8,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 #include "src/techniques/soft_shadow_volumes/lifted_receiver.glsl"
 
+layout(std430, binding = 0) readonly buffer MixedTiles { uint mixedTiles[]; };  // see upsample_even.comp.glsl
 layout(binding = 3) uniform sampler2D vBuffer;
 layout(binding = 0) uniform writeonly image2D visibility;
 
@@ -36,50 +37,30 @@ bool isKin(Receiver pixel, ivec2 texel, out float distance_m) {
 
 vec3 texelAt(ivec2 texel) { return texelFetch(vBuffer, clamp(texel, ivec2(0), volume.buffer_px.xy - 1), 0).rgb; }
 
-shared vec3 around[64];
-shared uint differences;
-
-// Whether all texels that any pixel of the group may take from are equal. Then it does not matter which they are, and
-// most groups are done.
-bool isUniform(int scale) {
-    ivec2 first = ivec2(gl_WorkGroupID.xy) * 8 / scale - 1;
-    int width = 8 / scale + 3;
-    int lane = int(gl_LocalInvocationIndex);
-    around[lane] = texelAt(first + ivec2(lane % width, lane / width));
-    if (lane == 0) differences = 0u;
-    barrier();
-    if (lane < width * width && around[lane] != around[0]) atomicOr(differences, 1u);
-    barrier();
-    return differences == 0u;
-}
-
 void main() {
-    int scale = volume.buffer_px.z;
-    bool isSame = isUniform(scale);
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
+    uint tilesAcross = uint(view.size_px.x + 7) / 8u, tile = mixedTiles[3u + gl_WorkGroupID.x];
+    ivec2 pixel = ivec2(8u * uvec2(tile % tilesAcross, tile / tilesAcross) + gl_LocalInvocationID.xy);
     Receiver receiver;
-    bool isReceiver = loadReceiver(pixel, receiver);
-    vec3 seen = isReceiver ? around[0] : vec3(1.0);
+    if (any(greaterThanEqual(pixel, view.size_px.xy)) || !loadReceiver(pixel, receiver)) return;
 
-    // Loops that are not entered cost nothing, even where branches do.
-    int near = isSame || !isReceiver ? 0 : 4;
+    int scale = volume.buffer_px.z;
     ivec2 first = pixel / scale;
     vec2 part = vec2(pixel - first * scale) / float(scale);
     vec3 sum = vec3(0.0);
     float weights = 0.0, distance_m;
-    for (int i = 0; i < near; ++i) {
+    for (int i = 0; i < 4; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1);
         vec2 share = mix(1.0 - part, part, vec2(step));
         float weight = isKin(receiver, first + step, distance_m) ? share.x * share.y : 0.0;
         sum += weight * texelAt(first + step);
         weights += weight;
     }
-    if (weights > 0.0) seen = sum / weights;
+    vec3 seen = sum / max(weights, 1e-30);
 
     // A surface thinner than a texel: its nearest texel in a wider ring, if it has one.
-    int ring = near > 0 && weights == 0.0 ? 16 : 0;
+    int ring = weights > 0.0 ? 0 : 16;
     float nearest = nowhere;
+    if (ring > 0) seen = vec3(1.0);
     for (int i = 0; i < ring; ++i) {
         ivec2 texel = first + ivec2(i & 3, i >> 2) - 1;
         isKin(receiver, texel, distance_m);

@@ -19,6 +19,9 @@ struct VolumeFrame {
 
     std::vector<int> layersEach;  ///< for each source: as how many layers a triangle of it counts
 
+    /// For each source: whether it may cut through the light, if that is flat.
+    std::vector<bool> cutsLight;
+
     /// A triangle may lie between the eye and a receiver without being seen: before the near plane, as it may
     /// in every orthographic view.
     bool mayHide = false;

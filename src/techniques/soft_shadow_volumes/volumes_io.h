@@ -34,6 +34,9 @@ struct VolumeConstants {
 // An edge with one or two of its faces, in light space; an edge of more faces is several of these, whose
 // weights add. A face's plane, dotted with (p, 1), is positive where p sees its front, times the direction in
 // which the face walks the edge; that of a missing face is 0.
+//
+// w: 0; or where the face ends because it cuts through a flat light, the sign of z on the side that it is the
+// edge of.
 struct LightEdge {
     vec4 aLight;
     vec4 bLight;

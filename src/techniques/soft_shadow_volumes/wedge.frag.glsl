@@ -17,7 +17,7 @@ void main() {
     LightFrame frame;
     if (!loadLiftedReceiver(ivec2(gl_FragCoord.xy), receiver) || !makeLightFrame(receiver, frame)) discard;
     vec3 a, b;
-    if (!edgeBeforeLight(frame, receiver.posLight, aLight, bLight, a, b)) discard;
+    if (!edgeBeforeLight(frame, receiver.posLight, vec4(aLight, 0.0), vec4(bLight, 0.0), a, b)) discard;
     a.xy /= a.z;
     b.xy /= b.z;
     float turn = a.x * b.y - a.y * b.x;
