@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
+#include "src/geometry/capping.h"
 #include "src/techniques/common/glm_types.h"
 #include "src/techniques/common/light_camera.h"
 #include "src/techniques/common/view_constants.h"
@@ -150,6 +151,14 @@ VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel)
     constants.lightSize = glm::dvec4(half, tangent, highest_m);
     constants.lightKind = {int(light.shape), isOneSided(light), hasNoSize(light), light.radianceTexture != 0};
     constants.buffer_px = {size_px, pixelsPerTexel, view.depth.reversed};
+}
+
+void VolumeFrame::capHoles(Device& device) {
+    for (SilhouetteSource& source : sources) {
+        const Mesh& capped = cappedOf(device, *source.mesh);
+        mayHide = mayHide || &capped != source.mesh;
+        source.mesh = &capped;
+    }
 }
 
 LightPoint VolumeFrame::center() const {

@@ -30,6 +30,9 @@ struct VolumeFrame {
     /// j).
     VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel);
 
+    /// Closes the holes of all casters with triangles that nobody draws.
+    void capHoles(Device& device);
+
     /// The light's centre.
     LightPoint center() const;
 };
