@@ -25,7 +25,11 @@ vec4 facePlane(uint face) {
     return (face & 1u) == 0u ? plane : -plane;
 }
 
-void gather(LightEdge edge) { lightEdges[atomicAdd(eye.edgeCount, 1u)] = edge; }
+// Edges for which there is no room are counted all the same.
+void gather(LightEdge edge) {
+    uint place = atomicAdd(eye.edgeCount, 1u);
+    if (place < 32u * uint(volume.tiles.w)) lightEdges[place] = edge;
+}
 
 // Where an edge whose ends lie on different sides meets the plane of a flat light. The same, to the last bit, for all
 // who ask about this edge, so that what they cut fits together.

@@ -45,7 +45,7 @@ void main() {
     uint list = (gl_WorkGroupID.y * uint(volume.tiles.y) + gl_WorkGroupID.x) * uint(volume.tiles.w);
     // Each layer of groups takes a part of the list.
     uint part = gl_WorkGroupID.z * 512u;
-    uint words = min((eye.edgeCount + 31u) / 32u, part + 512u);
+    uint words = min(wordsOfEdges(eye.edgeCount), part + 512u);
     for (uint word = part + gl_LocalInvocationIndex; word < words; word += 64u) {
         uint bits = 0u;
         uint count = isEmpty ? 0u : min(32u, eye.edgeCount - 32u * word);

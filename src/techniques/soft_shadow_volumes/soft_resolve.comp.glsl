@@ -143,7 +143,7 @@ void main() {
     uvec2 largeTile = place / uint(volume.tiles.z);
     uint list = (largeTile.y * uint(volume.tiles.y) + largeTile.x) * uint(volume.tiles.w);
     bool isEmpty = tileBounds.low.x > tileBounds.high.x;
-    uint words = isEmpty ? 0u : (eye.edgeCount + 31u) / 32u;
+    uint words = isEmpty ? 0u : wordsOfEdges(eye.edgeCount);
     uint work = 0u;
     while (word < words && work < roundWork) {
         uint bits = matteringBits(list, word + lane, words);

@@ -131,6 +131,22 @@ TEST_F(HardVolumesTest, SoupNeedsNoOrderAndNoClosedMeshes) {
     }
 }
 
+TEST_F(HardVolumesTest, CapsCloseWhatIsOpenAndNothingElse) {
+    const Settings capped = {{"open_meshes", "capped"}};
+    const Scene closed = withLight(makeBuiltin("two-boxes"), shrinkToPoint);
+    EXPECT_EQ(render("hard-volumes", closed, size, capped).visibility.values,
+              render("hard-volumes", closed, size).visibility.values);
+    // Boxes without the half of their sides: capped, no light shines out of them, or through to the ground.
+    const Scene open = withIndices(closed, [](std::vector<std::uint32_t>& indices) {
+        if (indices.size() == 36) indices.resize(18);
+    });
+    const LightResult exact = truth(open, size, 2), whole = render("hard-volumes", open, size, capped);
+    EXPECT_LE(shareOfDifferentPixels(exact, render("hard-volumes", open, size), 0.5f), 0.001);
+    EXPECT_GT(shareOfDifferentPixels(exact, whole, 0.5f), 0.005);
+    for (std::size_t i = 0; i < exact.visibility.values.size(); ++i)
+        ASSERT_LE(whole.visibility.values[i], exact.visibility.values[i] + 0.5f);
+}
+
 TEST_F(SoftVolumesTest, SingleBlockersAreAsGoodAsTheReferenceCanTell) {
     for (const char* name : {"sphere", "two-boxes", "disk-over-ground", "torus"}) {
         const Scene scene = makeBuiltin(name);
@@ -177,6 +193,21 @@ TEST_F(SoftVolumesTest, LayersAndWedgesAgreeWhereBothAreRight) {
         const LightResult layers = render("soft-volumes", scene, size);
         EXPECT_LE(shareOfDifferentPixels(layers, render("soft-volumes", scene, size, wedges), 1e-3f), 0.002)
             << name;
+    }
+}
+
+TEST_F(SoftVolumesTest, MarkingHalfWedgesLeavesOutNothing) {
+    // Wherever the eye is, in a wedge too. What differs is the order in which floats add up; a pixel in a
+    // thousand may lie on a wedge's own border.
+    constexpr PictureSize small{120, 90};
+    for (const glm::vec3 eye : {glm::vec3(3, 3, 5), glm::vec3(0.05f, 0.31f, 0.02f)}) {
+        const Scene scene = withMoment(makeBuiltin("two-boxes"), [&](SceneMoment& moment) {
+            moment.cameras.front().worldFromCamera =
+                glm::inverse(glm::lookAt(eye, glm::vec3(0.2f, 0, -0.3f), glm::vec3(0, 1, 0)));
+        });
+        const Settings marked = {{"method", "wedges"}, {"marking", "stencil"}};
+        const LightResult result = render("soft-volumes", scene, small, marked);
+        EXPECT_LE(shareOfDifferentPixels(result, render("soft-volumes", scene, small, wedges), 1e-4f), 0.001);
     }
 }
 

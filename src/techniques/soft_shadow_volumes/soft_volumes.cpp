@@ -52,6 +52,13 @@ void SoftVolumes::describe(ParameterVisitor& visitor) {
          .help = "which sides of shadow volumes are counted: auto takes z-pass, the cheaper one, unless the "
                  "eye lies within rounding of a side"},
         counting_, countings);
+    static constexpr std::array<std::string_view, 2> markings = {"none", "stencil"};
+    visitor.choice(
+        {.name = "marking",
+         .help = "of wedges: stencil marks the pixels inside each half wedge first, as published; far slower "
+                 "than to find out while drawing"},
+        marking_, markings);
+    visitor.boolean({.name = "wireframe", .help = "outlines wedges for inspection"}, wireframe_);
     visitor.integer({.name = "round_work",
                      .unit = "iterations",
                      .help = "how much is done for a tile before it pauses, to go on in another dispatch"},
@@ -144,7 +151,8 @@ void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     if (pixelsPerTexel > 1) allocateVBuffer(glm::ivec2(frame.constants.buffer_px), format);
     const GLuint target = pixelsPerTexel > 1 ? vBuffer_.name() : out.texture();
     if (wedges) {
-        wedges_.render(frame, counter_, target, format, timers_);
+        wedges_.render(frame, counter_, {WedgeRaster::Marking(marking_), wireframe_}, target, format,
+                       timers_);
     } else {
         layers_.render(frame, inputs.light, counter_, target, format, timers_);
     }
@@ -154,17 +162,19 @@ void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
 void SoftVolumes::inspect(InspectionVisitor& visitor) const {
     visitor.texture({.name = "counts", .texture = counter_.counts().name(), .white = 4});
     visitor.texture({.name = "receiver depth", .texture = counter_.depth().name()});
-    if (wedges_.layers().name() != 0)
-        visitor.texture({.name = "additive and subtractive layers", .texture = wedges_.layers().name()});
+    wedges_.inspect(visitor);
     if (vBuffer_.name() != 0) visitor.texture({.name = "V-buffer", .texture = vBuffer_.name()});
     if (layers_.edgeCounts().name() != 0)
         visitor.texture({.name = "edges a pixel", .texture = layers_.edgeCounts().name(), .white = 32});
 }
 
 Statistics SoftVolumes::statistics() const {
-    return {.counts = {{"edges", double(counter_.silhouettes().edgeCount())},
-                       {"edge memory", double(layers_.size_bytes()) / (1 << 20), "MiB"}},
-            .passes = passTimes(timers_)};
+    Statistics statistics{.counts = {{"edges", double(counter_.silhouettes().edgeCount())},
+                                     {"edge memory", double(layers_.size_bytes()) / (1 << 20), "MiB"}},
+                          .passes = passTimes(timers_)};
+    if (const std::size_t edges = layers_.edgesWithoutRoom(counter_); edges > 0)
+        statistics.counts.push_back({"edges without room (shadows are hard)", double(edges)});
+    return statistics;
 }
 
 }  // namespace penumbra

@@ -32,6 +32,8 @@ class SoftVolumes final : public Technique {
     int method_ = int(Method::layers);
     int counting_ = 0;
     TileLayers::Effort effort_;
+    int marking_ = int(WedgeRaster::Marking::none);
+    bool wireframe_ = false;
     int vBufferSize_ = 0;       // full, half, quarter
     float frameBudget_ms_ = 0;  // 0: none
     int budgetedSize_ = 0;      // the size that the budget has led to

@@ -77,28 +77,33 @@ TileLayers::TileLayers(Device& device)
       cuts_(device_.shaders, {shader("soft_cuts")}),
       bounds_(device_.shaders, {shader("soft_bounds")}),
       lists_(device_.shaders, {shader("soft_lists")}),
-      radiance_(device_.shaders, {shader("soft_radiance")}) {}
+      radiance_(device_.shaders, {shader("soft_radiance")}) {
+    GLint64 largest_bytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest_bytes);
+    largestBlock_bytes_ = std::size_t(largest_bytes);
+}
 
 void TileLayers::prepare(VolumeFrame& frame, Effort effort) {
     effort_ = effort;
-    recordCount_ = 0;
+    std::size_t records = 0;
     for (std::size_t i = 0; i < frame.sources.size(); ++i) {
         const Mesh& mesh = *frame.sources[i].mesh;
-        const EdgeMesh& edges = edgesOf(mesh);
-        // An edge of n faces is kept as at most (n + 1) / 2 records; where the light cuts it, on both of its
-        // sides, and each triangle may have its cut.
-        const std::size_t records = (edges.edgeCount() + edges.faces().size_bytes() / sizeof(uint)) / 2;
-        const std::size_t cutRecords = frame.cutsLight[i] ? records + 2 * mesh.indices().size() / 3 : 0;
-        recordCount_ += records + cutRecords;
+        const std::size_t pairs = edgesOf(mesh).pairCount();
+        // Where the light may be cut through, an edge has a part on both of its sides, and a triangle its
+        // cut.
+        records += frame.cutsLight[i] ? 2 * (pairs + mesh.indices().size() / 3) : pairs;
     }
-    reserve(lightEdges_, recordCount_ * sizeof(LightEdge), "soft-volumes/edges");
+    // Few edges of so many matter to a light that is not as large as they are; a storage block holds no more.
+    recordCount_ = std::min(records, largestBlock_bytes_ / sizeof(LightEdge) / 32 * 32);
+    isLimited_ = recordCount_ < records;
+    const std::size_t words = (recordCount_ + 31) / 32;
+    reserve(lightEdges_, words * 32 * sizeof(LightEdge), "soft-volumes/edges");
 
     const glm::ivec2 size_px(frame.constants.buffer_px);
     const auto tilesOf = [&](int tile_px) { return (size_px + tile_px - 1) / tile_px; };
     const glm::ivec2 smallTiles = tilesOf(smallTile_px);
     reserve(tileBounds_, std::size_t(smallTiles.x) * std::size_t(smallTiles.y) * 2 * sizeof(glm::vec4),
             "soft-volumes/tile bounds");
-    const std::size_t words = (recordCount_ + 31) / 32;
     int large_px = largeTile_px;
     const auto listBytes = [&] {
         const glm::ivec2 tiles = tilesOf(large_px);
@@ -253,6 +258,13 @@ void TileLayers::render(const VolumeFrame& frame, const AreaLight& light, const 
     const auto pass = timers.pass("soft-volumes/visibility");
     glBindImageTexture(0, target, 0, GL_FALSE, 0, GL_WRITE_ONLY, format);
     resolve(frame, counter);
+}
+
+std::size_t TileLayers::edgesWithoutRoom(const VolumeCounter& counter) const {
+    if (!isLimited_) return 0;
+    EyeState eye;
+    counter.eye().read(std::as_writable_bytes(std::span(&eye, 1)));
+    return eye.edgeCount > recordCount_ ? eye.edgeCount - recordCount_ : 0;
 }
 
 std::size_t TileLayers::size_bytes() const {

@@ -38,6 +38,9 @@ class TileLayers {
     /// How many edges were looked at for each texel.
     const gl::Texture& edgeCounts() const { return edgeCounts_; }
     std::size_t size_bytes() const;
+    /// Edges beyond what a storage block of the device holds (2 million at least). If there are any, the
+    /// result is the hard shadow of the light's centre. Waits for the device where there may be.
+    std::size_t edgesWithoutRoom(const VolumeCounter& counter) const;
 
   private:
     void gatherEdges(const VolumeFrame& frame, const VolumeCounter& counter);
@@ -54,7 +57,9 @@ class TileLayers {
     int resolveSamples_ = 0;  // that `resolve_` was made for
     int placedSamples_ = 0;
     bool placedOnSquare_ = false;
+    std::size_t largestBlock_bytes_ = 0;
     std::size_t recordCount_ = 0;  // room for LightEdges
+    bool isLimited_ = false;       // to less than there may be
 };
 
 }  // namespace penumbra

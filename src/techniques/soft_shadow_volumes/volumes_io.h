@@ -63,6 +63,13 @@ layout(std140, binding = 1) uniform VolumeBlock {
     VolumeConstants volume;
 };
 
+// How many words of edges there are to look at: none if they did not all fit, since half of the edges are
+// worse than the shadow of the light's centre.
+uint wordsOfEdges(uint edgeCount) {
+    uint words = (edgeCount + 31u) / 32u;
+    return words <= uint(volume.tiles.w) ? words : 0u;
+}
+
 // From the light's centre through a point: the direction in which the point's shadow falls.
 vec3 shadowDirection(vec3 posLight) {
     return volume.lightKind.x == shapeDistant ? vec3(0.0, 0.0, -1.0) : posLight;

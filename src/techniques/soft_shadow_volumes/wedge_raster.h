@@ -13,23 +13,38 @@ class WedgeRaster {
   public:
     explicit WedgeRaster(Device& device);
 
+    enum class Marking {
+        none,     ///< wedges are drawn at once, and a pixel outside of one finds that it adds nothing
+        stencil,  ///< pixels inside each half wedge are marked first (figure 11), so that only they pay
+    };
+    struct Options {
+        Marking marking = Marking::none;
+        bool wireframe = false;  ///< outlines the wedges for inspection
+    };
+
     /// Wedges weigh blockers, not layers: a closed caster hides the light with two layers, an open one with
     /// each. To be called before the frame is counted.
     static void countAsBlockers(VolumeFrame& frame);
 
     /// Writes visibility into `target`, a texture of the V-buffer's size. The frame's constants, the view and
     /// what `counter` counted must be there.
-    void render(const VolumeFrame& frame, const VolumeCounter& counter, GLuint target, GLenum format,
-                gl::PassTimers& timers);
+    void render(const VolumeFrame& frame, const VolumeCounter& counter, Options options, GLuint target,
+                GLenum format, gl::PassTimers& timers);
 
-    /// The V-buffer's additive and subtractive layer.
-    const gl::Texture& layers() const { return layers_; }
+    /// The V-buffer's additive and subtractive layer; how many (half) wedges each texel was evaluated for;
+    /// and the last outlines, where they were asked for.
+    void inspect(InspectionVisitor& visitor) const;
 
   private:
-    gl::Program wedges_, resolve_;
+    void allocate(glm::ivec2 size_px, Options options);
+    void drawAll(const VolumeCounter& counter) const;
+    void drawMarked(const VolumeFrame& frame, const VolumeCounter& counter) const;
+    void drawWireframe(const VolumeCounter& counter, glm::ivec2 size_px) const;
+
+    gl::Program wedges_, marks_, resolve_;
     gl::VertexArrayHandle noVertices_;
-    gl::Texture layers_;
-    gl::Framebuffer framebuffer_;
+    gl::Texture layers_, evaluations_, depthAndMarks_, wireframe_;
+    gl::Framebuffer framebuffer_, wireframeFramebuffer_;
 };
 
 }  // namespace penumbra
