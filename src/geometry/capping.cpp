@@ -82,7 +82,7 @@ const Mesh& cappedOf(Device& device, const Mesh& mesh) {
     }
     if (internals.capped->indices().size() == mesh.indices().size()) return mesh;
     if (internals.cappedRevision != mesh.revision()) {
-        internals.capped->deform(mesh.positions());
+        internals.capped->deform({.buffer = mesh.positionBuffer()}, mesh.bounds());
         internals.cappedRevision = mesh.revision();
     }
     return *internals.capped;

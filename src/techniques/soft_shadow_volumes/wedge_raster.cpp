@@ -8,7 +8,6 @@
 #include "src/gl/raster_state.h"
 
 namespace penumbra {
-
 namespace {
 
 constexpr const char* wedgeVertices = "src/techniques/soft_shadow_volumes/wedge.vert.glsl";
@@ -85,7 +84,6 @@ void WedgeRaster::drawMarked(const VolumeFrame& frame, const VolumeCounter& coun
                                         .depthClamp = true,
                                         .blendEquation = GL_FUNC_ADD});
     glEnable(GL_STENCIL_TEST);
-    glStencilMask(0xff);
     for (int wedge = 0; wedge < int(counter.silhouettes().edgeCount()); ++wedge) {
         for (const int half : {1, -1}) {
             marks_.use();
@@ -135,10 +133,12 @@ void WedgeRaster::render(const VolumeFrame& frame, const VolumeCounter& counter,
     counter.depth().bind(4);
     {
         const auto pass = timers.pass("soft-volumes/wedges");
+        gl::beginPass(framebuffer_.name(), {.width_px = size_px.x, .height_px = size_px.y});
         const std::array<float, 4> zero{};
         for (int i = 0; i < 2; ++i) glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, i, zero.data());
         if (options.marking == Marking::stencil) {
             const GLint unmarked = 0;
+            glStencilMask(0xff);
             glClearNamedFramebufferiv(framebuffer_.name(), GL_STENCIL, 0, &unmarked);
             drawMarked(frame, counter);
         } else {
