@@ -8,6 +8,7 @@ namespace penumbra {
 EdgeMesh::EdgeMesh(const Mesh& mesh) {
     const EdgeTopology topology = findEdges(mesh.positions(), mesh.indices());
     edgeCount_ = topology.edges.size();
+    for (const EdgeTopology::Edge& edge : topology.edges) pairCount_ += (edge.faceCount + 1) / 2;
     edges_ = gl::Buffer(std::as_bytes(std::span(topology.edges)), "mesh edges");
     faces_ = gl::Buffer(std::as_bytes(std::span(topology.faces)), "faces of mesh edges");
 }

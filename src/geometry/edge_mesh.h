@@ -16,11 +16,13 @@ class EdgeMesh {
     explicit EdgeMesh(const Mesh& mesh);
 
     std::size_t edgeCount() const { return edgeCount_; }
+    /// The number of edges, where one of more than two faces counts for each pair of them.
+    std::size_t pairCount() const { return pairCount_; }
     const gl::Buffer& edges() const { return edges_; }  ///< EdgeTopology::Edge
     const gl::Buffer& faces() const { return faces_; }  ///< EdgeTopology::faces
 
   private:
-    std::size_t edgeCount_;
+    std::size_t edgeCount_, pairCount_ = 0;
     gl::Buffer edges_, faces_;
 };
 

@@ -23,6 +23,8 @@ struct Mesh::Internals {
     std::uint64_t revision = 0;
     gl::Buffer positionBuffer, uvBuffer, indexBuffer;
     std::unique_ptr<const EdgeMesh> edges;  ///< see edgesOf
+    std::unique_ptr<Mesh> capped;           ///< see cappedOf
+    std::uint64_t cappedRevision = 0;       ///< of this mesh, when `capped` last followed it
 
     void enter(Device::Internals& owner) {
         device = &owner;

@@ -29,7 +29,11 @@ Framebuffer::Framebuffer(std::initializer_list<const Texture*> colors, const Tex
     }
     if (drawBuffers.empty()) drawBuffers.push_back(GL_NONE);
     glNamedFramebufferDrawBuffers(name(), GLsizei(drawBuffers.size()), drawBuffers.data());
-    if (depth != nullptr) glNamedFramebufferTexture(name(), GL_DEPTH_ATTACHMENT, depth->name(), 0);
+    if (depth != nullptr) {
+        const bool hasStencil = depth->format() == GL_DEPTH32F_STENCIL8;
+        glNamedFramebufferTexture(name(), hasStencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
+                                  depth->name(), 0);
+    }
     label(GL_FRAMEBUFFER, name(), text);
     if (glCheckNamedFramebufferStatus(name(), GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
         throw Error(Error::Kind::outOfMemory, "the OpenGL device cannot draw into " + std::string(text) +

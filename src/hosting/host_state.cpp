@@ -46,6 +46,15 @@ constexpr std::array<PixelStore, 16> pixelStores = {{
     {GL_PACK_LSB_FIRST, 0},
 }};
 
+/// Of the front and the back: function, reference, mask; what to do where the stencil fails, where the depth
+/// does, where both pass; which bits are written.
+constexpr std::array<std::array<GLenum, 7>, 2> stencilNames = {{
+    {GL_STENCIL_FUNC, GL_STENCIL_REF, GL_STENCIL_VALUE_MASK, GL_STENCIL_FAIL, GL_STENCIL_PASS_DEPTH_FAIL,
+     GL_STENCIL_PASS_DEPTH_PASS, GL_STENCIL_WRITEMASK},
+    {GL_STENCIL_BACK_FUNC, GL_STENCIL_BACK_REF, GL_STENCIL_BACK_VALUE_MASK, GL_STENCIL_BACK_FAIL,
+     GL_STENCIL_BACK_PASS_DEPTH_FAIL, GL_STENCIL_BACK_PASS_DEPTH_PASS, GL_STENCIL_BACK_WRITEMASK},
+}};
+
 constexpr GLenum alphaTest = 0x0BC0;  // GL_ALPHA_TEST: compatibility contexts alone have it
 
 GLint integer(GLenum name) {
@@ -140,6 +149,10 @@ void HostState::saveRaster() {
     provokingVertex_ = integer(GL_PROVOKING_VERTEX);
     glGetIntegerv(GL_POLYGON_MODE, polygonMode_.data());
     glGetBooleanv(GL_DEPTH_WRITEMASK, &depthMask_);
+    for (std::size_t face = 0; face < stencil_.size(); ++face) {
+        for (std::size_t i = 0; i < stencilNames[face].size(); ++i)
+            stencil_[face][i] = integer(stencilNames[face][i]);
+    }
 
     viewportCount_ = std::min(mostViewports, std::size_t(integer(GL_MAX_VIEWPORTS)));
     for (GLuint i = 0; i < viewportCount_; ++i) {
@@ -180,6 +193,12 @@ void HostState::restoreRaster() const {
         glPolygonMode(GL_FRONT_AND_BACK, GLenum(polygonMode_[0]));
     }
     glDepthMask(depthMask_);
+    for (const GLenum face : {GL_FRONT, GL_BACK}) {
+        const auto& stencil = stencil_[face == GL_FRONT ? 0 : 1];
+        glStencilFuncSeparate(face, GLenum(stencil[0]), stencil[1], GLuint(stencil[2]));
+        glStencilOpSeparate(face, GLenum(stencil[3]), GLenum(stencil[4]), GLenum(stencil[5]));
+        glStencilMaskSeparate(face, GLuint(stencil[6]));
+    }
 
     for (GLuint i = 0; i < viewportCount_; ++i) {
         const Viewport& viewport = viewports_[i];

@@ -71,6 +71,7 @@ class HostState {
     GLint cullFace_, frontFace_, depthFunction_, clipOrigin_, clipDepth_, provokingVertex_;
     std::array<GLint, 2> polygonMode_;  // compatibility contexts tell front and back apart
     GLboolean depthMask_;
+    std::array<std::array<GLint, 7>, 2> stencil_;  // front and back
     std::size_t viewportCount_, drawBufferCount_;
     std::array<Viewport, mostViewports> viewports_;
     std::array<DrawBuffer, mostDrawBuffers> drawBuffers_;

@@ -32,10 +32,15 @@ vec3 tangentLight(ivec2 pixel, float depth, vec3 pos, ivec2 axis) {
 }
 
 // False where the pixel shows no surface, or one that receives no shadow: its visibility is 1.
+bool isReceiver(ivec2 pixel) {
+    return !isBackground(texelFetch(viewDepth, pixel, 0).r) &&
+           (view.size_px.w == 0 || texelFetch(viewReceivers, pixel, 0).r >= 0.5);
+}
+
+// The same, and where and what it is.
 bool loadReceiver(ivec2 pixel, out Receiver receiver) {
+    if (!isReceiver(pixel)) return false;
     float depth = texelFetch(viewDepth, pixel, 0).r;
-    if (isBackground(depth)) return false;
-    if (view.size_px.w == 1 && texelFetch(viewReceivers, pixel, 0).r < 0.5) return false;
     receiver.posLight = positionLight(pixel, depth);
     receiver.normalLight =
         view.size_px.z == 1

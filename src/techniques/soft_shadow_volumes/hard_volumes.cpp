@@ -6,7 +6,8 @@
 namespace penumbra {
 
 HardVolumes::HardVolumes(Device& device)
-    : counter_(device),
+    : device_(device),
+      counter_(device),
       resolve_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/hard_volumes.comp.glsl"}),
       constants_("hard-volumes/constants"),
       alphaMaskWarning_(device) {}
@@ -18,12 +19,20 @@ void HardVolumes::describe(ParameterVisitor& visitor) {
          .help = "which sides of shadow volumes are counted: auto takes z-pass, the cheaper one, unless the "
                  "eye lies within rounding of a side"},
         counting_, countings);
+    static constexpr std::array<std::string_view, 2> openMeshes = {"signed", "capped"};
+    visitor.choice(
+        {.name = "open_meshes",
+         .help =
+             "signed: an edge counts for the faces that end there, so that triangles alone block; capped: "
+             "as published, holes are closed first, and block as well"},
+        openMeshes_, openMeshes);
 }
 
 void HardVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     checkInputs(inputs, out);
     alphaMaskWarning_.check(inputs.casters);
-    const VolumeFrame frame(inputs, 1);
+    VolumeFrame frame(inputs, 1);
+    if (openMeshes_ == int(OpenMeshes::capped)) frame.capHoles(device_);
     constants_.write(frame.constants);
     view_.bind(inputs.view, frame.lightFromWorld);
     constants_.bindUniform(1);

@@ -20,8 +20,11 @@ class HardVolumes final : public Technique {
     Statistics statistics() const override;
 
   private:
+    enum class OpenMeshes { signedEdges, capped };
     int counting_ = 0;
+    int openMeshes_ = int(OpenMeshes::signedEdges);
 
+    Device& device_;
     VolumeCounter counter_;
     gl::Program resolve_;
     ViewBinding view_;

@@ -62,6 +62,7 @@ bool makeLightFrame(Receiver receiver, out LightFrame frame) {
     return true;
 }
 
+bool isFlatLight() { return volume.lightKind.x == shapeRect || volume.lightKind.x == shapeDisk; }
 bool isSquareLight() { return volume.lightKind.x == shapeRect; }
 
 // 1: all of the light is above the horizon; -1: none; 0: some. A square's corners bound a disk, too.
@@ -74,12 +75,17 @@ bool isAboveHorizon(LightFrame frame, vec2 s) { return dot(frame.horizon, vec3(s
 
 const float nearestBlocker = 1e-6;  // of the distance to the light: blockers nearer than this are the surface itself
 
-// The part of an edge that can hide the light, in unit space, not yet divided by z. False if there is none.
-bool edgeBeforeLight(LightFrame frame, vec3 posLight, vec3 aLight, vec3 bLight, out vec3 a, out vec3 b) {
-    vec3 fromA = aLight - posLight, fromB = bLight - posLight;
+// The part of an edge that can hide the light, in unit space, not yet divided by z. False if there is none. w: as of
+// LightEdge.
+bool edgeBeforeLight(LightFrame frame, vec3 posLight, vec4 aLight, vec4 bLight, out vec3 a, out vec3 b) {
+    vec3 fromA = aLight.xyz - posLight, fromB = bLight.xyz - posLight;
     a = vec3(dot(frame.x, fromA), dot(frame.y, fromA), dot(frame.z, fromA));
     b = vec3(dot(frame.x, fromB), dot(frame.y, fromB), dot(frame.z, fromB));
-    if (max(a.z, b.z) <= nearestBlocker || (!frame.isEndless && min(a.z, b.z) >= 1.0)) return false;
+    // Where edges have been cut at the light's plane they end in it, without rounding.
+    if (isFlatLight() && aLight.z == 0.0) a.z = 1.0;
+    if (isFlatLight() && bLight.z == 0.0) b.z = 1.0;
+    bool isBehind = aLight.w == 0.0 ? min(a.z, b.z) >= 1.0 : aLight.w * posLight.z < 0.0;
+    if (max(a.z, b.z) <= nearestBlocker || (!frame.isEndless && isBehind)) return false;
     // Off the light to one side?
     if (a.x > a.z && b.x > b.z || a.x < -a.z && b.x < -b.z || a.y > a.z && b.y > b.z || a.y < -a.z && b.y < -b.z)
         return false;

@@ -1,203 +1,170 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
-// Visibility from the edges that matter to a tile (README.md, "Counting layers").
+// Visibility from the edges that matter to a tile (README.md, "Counting layers"), in rounds of bounded work: a tile that
+// is not done keeps its counts and asks for another round ("Rounds").
 //
-// SAMPLES: the number of points of the light at which layers are counted.
-#ifndef SAMPLES
-#define SAMPLES 64
-#endif
+// SAMPLES: see layer_counts.glsl; EDGES_AT_ONCE: how many edges a tile has room for, a multiple of 32.
 layout(local_size_x = 8, local_size_y = 8) in;
+#ifndef EDGES_AT_ONCE
+#define EDGES_AT_ONCE 256
+#endif
 
 #include "src/techniques/common/view.glsl"
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 #include "src/techniques/soft_shadow_volumes/lifted_receiver.glsl"
 #include "src/techniques/soft_shadow_volumes/light_area.glsl"
 #include "src/techniques/soft_shadow_volumes/tile_shaft.glsl"
+#include "src/techniques/soft_shadow_volumes/layer_counts.glsl"
+#include "src/techniques/soft_shadow_volumes/layer_visibility.glsl"
 
 layout(std430, binding = 0) readonly buffer Bounds { TileBounds bounds[]; };
 layout(std430, binding = 1) readonly buffer LightEdges { LightEdge lightEdges[]; };
 layout(std430, binding = 2) readonly buffer Eye { EyeState eye; };
 layout(std430, binding = 3) readonly buffer Lists { uint lists[]; };
-layout(std430, binding = 4) readonly buffer Samples { vec4 samples[]; };   // xy: place in unit space; z: rank from the centre; w: direction in turns, rising
-layout(std430, binding = 5) readonly buffer Radiances { vec4 radiances[]; };
+layout(std430, binding = 6) buffer States { int states[]; };
+// The arguments of each round's indirect dispatch, then two lists of tiles: those of this round, and of the next.
+layout(std430, binding = 7) buffer Rounds { uint rounds[]; };
 layout(binding = 3) uniform sampler2D volumeCounts;
 layout(binding = 0) uniform writeonly image2D visibility;
 layout(binding = 1, r32f) uniform writeonly image2D edgeCounts;
 
+layout(location = 0) uniform uint firstTile;  // of the band that is worked on
+layout(location = 1) uniform uint round_;
+layout(location = 2) uniform uint roundWork;  // loop iterations after which a tile pauses
+layout(location = 3) uniform uvec2 roundLists;  // where this round's list of tiles begins, and the next one's
+
+const uint stateWords = uint(SAMPLES) + 4u;
 const uint wordsAtOnce = 64u;
-shared uint mattering[wordsAtOnce * 32u];
+
+shared uint mattering[EDGES_AT_ONCE];
 shared uint matteringCount;
+shared uint mostPoints;  // that an edge made a receiver look at
 
-// A sphere shows its directions, not the area of its disk. Above this tangent (of some 9 degrees) the two differ by more
-// than a hundredth, and samples are placed by solid angle.
-const float wideLight = 0.15;
+uint stateAt(uint tile, uint i) { return ((tile - firstTile) * (stateWords + 1u) + i) * 64u + gl_LocalInvocationIndex; }
 
-vec2 samplePlace(LightFrame frame, int i) {
-    vec4 s = samples[i];
-    if (frame.tangent <= wideLight) return s.xy;
-    // Uniform in solid angle: the cosine falls linearly with the share of the cone.
-    float tangent2 = frame.tangent * frame.tangent;
-    float cosine = 1.0 - s.z * (1.0 - inversesqrt(1.0 + tangent2));
-    return s.xy * sqrt((1.0 / (cosine * cosine) - 1.0) / (s.z * tangent2));
+void saveCounts(uint tile) {
+    for (int i = 0; i < SAMPLES; ++i) states[stateAt(tile, uint(i))] = changes[i];
+    uint rest = uint(SAMPLES);
+    states[stateAt(tile, rest)] = leastChange;
+    states[stateAt(tile, rest + 1u)] = changeAtTop;
+    states[stateAt(tile, rest + 2u)] = meanChangeFixed;
+    states[stateAt(tile, rest + 3u)] = edgesCounted;
 }
 
-const float fixedOne = 1048576.0;  // integers add up to the same in any order
-
-// Changes in the number of layers from the light's centre to its other points. Not in a struct that is handed around,
-// which some compilers copy.
-int changes[SAMPLES];
-int leastChange = 2;  // of any edge: how many layers the thinnest blocker has
-int changeAtTop = 0;  // at the light's highest point over the horizon
-int meanChangeFixed = 0;  // exact mean over the light, times fixedOne
-
-// The light's point that is highest over the receiver's horizon.
-vec2 topPlace(LightFrame frame) {
-    vec2 up = frame.horizon.xy;
-    if (isSquareLight()) return vec2(up.x < 0.0 ? -1.0 : 1.0, up.y < 0.0 ? -1.0 : 1.0);
-    return up == vec2(0.0) ? vec2(1.0, 0.0) : normalize(up);
+void loadCounts(uint tile) {
+    for (int i = 0; i < SAMPLES; ++i) changes[i] = states[stateAt(tile, uint(i))];
+    uint rest = uint(SAMPLES);
+    leastChange = states[stateAt(tile, rest)];
+    changeAtTop = states[stateAt(tile, rest + 1u)];
+    meanChangeFixed = states[stateAt(tile, rest + 2u)];
+    edgesCounted = states[stateAt(tile, rest + 3u)];
 }
 
-// The share of the light over the horizon, where it is small: a square's corner or a disk's segment.
-float shareOverHorizon(LightFrame frame) {
-    vec2 slope = abs(frame.horizon.xy);
-    if (isSquareLight()) {
-        float above = slope.x + slope.y + frame.horizon.z;
-        return min(above * above / (8.0 * slope.x * slope.y + 1e-30), above / (2.0 * max(slope.x, slope.y)));
+void pause(uint tile, uint word) {
+    saveCounts(tile);
+    states[stateAt(tile, stateWords)] = int(word);
+    if (gl_LocalInvocationIndex != 0u) return;
+    uint next = 3u * (round_ + 1u);
+    rounds[roundLists.y + atomicAdd(rounds[next], 1u)] = tile;
+    atomicMax(rounds[next + 1u], 1u);
+    atomicMax(rounds[next + 2u], 1u);
+}
+
+// Of the edges that a word of the large tile's list names, those that matter to this tile.
+uint matteringBits(uint list, uint word, uint words) {
+    uint listed = word < words ? lists[list + word] : 0u;
+    uint kept = 0u;
+    for (uint bits = listed; bits != 0u; bits &= bits - 1u) {
+        if (mayMatter(lightEdges[32u * word + uint(findLSB(bits))])) kept |= bits & (0u - bits);
     }
-    return 0.6 * pow(1.0 + frame.horizon.z / length(slope), 1.5);
+    return kept;
 }
 
-// Less of the light than a quarter of what a sample stands for is nothing: grazing the surface, it carries a
-// hundred-thousandth of the light's irradiance.
-const float leastShare = 0.25 / float(SAMPLES);
-
-// Whether the way from the light's centre to `s` crosses the edge from `a` to `b`. What is asked of each end is asked in
-// the same way of the other edges there, so that one of them is crossed and no more.
-bool isCrossed(vec2 a, vec2 b, float turn, vec2 s) {
-    bool isBetween = (a.x * s.y - a.y * s.x >= 0.0) != (b.x * s.y - b.y * s.x >= 0.0);
-    float beyond = (b.x - a.x) * (s.y - a.y) - (b.y - a.y) * (s.x - a.x);
-    return isBetween && beyond * turn < 0.0;
-}
-
-float directionOf(vec2 d) { return fract(atan(d.y, d.x) / lightTau); }
-
-const float directionRounding = 1e-4;  // turns; a hundred times what atan is off
-
-// The first point whose direction is not before this one; SAMPLES becomes 0, since directions go round.
-int firstSampleFrom(float direction) {
-    int low = 0, high = SAMPLES;
-    // Nine halvings do for 256 points; without an exit in between, so that compilers unroll them.
-    for (int step = 0; step < 9; ++step) {
-        int middle = (low + high) / 2;
-        bool isBefore = low < high && samples[middle].w < direction;
-        high = isBefore ? high : middle;
-        low = isBefore ? middle + 1 : low;
+// Lists the edges named by each lane's word, and says how many there are: more than there is room for are counted, not
+// listed.
+uint listMattering(uint word, uint bits) {
+    barrier();
+    if (gl_LocalInvocationIndex == 0u) {
+        matteringCount = 0u;
+        mostPoints = 0u;
     }
-    return low % SAMPLES;
-}
-
-// Adds what an edge changes on the way from the light's centre to each of its points.
-bool addEdge(LightFrame frame, Receiver receiver, vec2 top, LightEdge edge) {
-    vec4 p = vec4(receiver.posLight, 1.0);
-    float weight = sign(dot(edge.planes[0], p)) + sign(dot(edge.planes[1], p));
-    vec3 a, b;
-    if (weight == 0.0 || !edgeBeforeLight(frame, receiver.posLight, edge.aLight.xyz, edge.bLight.xyz, a, b)) return false;
-    a.xy /= a.z;
-    b.xy /= b.z;
-    float turn = a.x * b.y - a.y * b.x;
-    if (turn == 0.0) return false;
-    int change = int(sign(turn) * weight * frame.handedness);
-    leastChange = min(leastChange, abs(change));
-    meanChangeFixed += change * int(shareBeyond(a.xy, b.xy) * fixedOne + 0.5);
-    // Only points in the directions between the edge's ends can lie behind it; they follow each other in the list.
-    float first = directionOf(turn > 0.0 ? a.xy : b.xy), last = directionOf(turn > 0.0 ? b.xy : a.xy);
-    float span = fract(last - first) + 2.0 * directionRounding;
-    first = fract(first - directionRounding);
-    int start = firstSampleFrom(first);
-    for (int n = 0; n < SAMPLES; ++n) {
-        int i = start + n < SAMPLES ? start + n : start + n - SAMPLES;
-        if (fract(samples[i].w - first) > span) break;
-        changes[i] += isCrossed(a.xy, b.xy, turn, samplePlace(frame, i)) ? change : 0;
+    barrier();
+    uint place = bits == 0u ? 0u : atomicAdd(matteringCount, uint(bitCount(bits)));
+    for (; bits != 0u && place < uint(EDGES_AT_ONCE); bits &= bits - 1u) {
+        mattering[place++] = 32u * word + uint(findLSB(bits));
     }
-    changeAtTop += isCrossed(a.xy, b.xy, turn, top) ? change : 0;
-    return true;
+    barrier();
+    return matteringCount;
 }
 
-vec3 visibilityOf(LightFrame frame, int atCenter) {
-    vec3 seen = vec3(0.0), all = vec3(0.0);
-    int points = 0, covered = 0, layerSum = 0, least = 1 << 20, most = 0;
-    bool isTextured = volume.lightKind.w == 1;
-    bool isCut = horizonSide(frame) == 0;
-    for (int i = 0; i < SAMPLES; ++i) {
-        if (isCut && !isAboveHorizon(frame, samplePlace(frame, i))) continue;
-        vec3 radiance = isTextured ? radiances[i].rgb : vec3(1.0);
-        int count = max(changes[i] + atCenter, 0);
-        all += radiance;
-        ++points;
-        if (count == 0) {
-            seen += radiance;
-        } else {
-            ++covered;
-            layerSum += count;
-            least = min(least, count);
-            most = max(most, count);
+// Returns how many iterations no invocation has exceeded.
+uint addMattering(LightFrame frame, Receiver receiver, vec2 top, bool seesLight, uint count) {
+    SeenEdge edge;
+    uint most = 0u;
+    for (uint first = 0u; first < count && seesLight; first += 32u) {
+        // Which of them hide something from this receiver, that those alone cost what an edge costs.
+        uint bits = 0u;
+        for (uint i = 0u; i < min(32u, count - first); ++i) {
+            if (seeEdge(frame, receiver, lightEdges[mattering[first + i]], edge)) bits |= 1u << i;
+        }
+        for (; bits != 0u; bits &= bits - 1u) {
+            seeEdge(frame, receiver, lightEdges[mattering[first + uint(findLSB(bits))]], edge);
+            most = max(most, addEdge(frame, top, edge));
         }
     }
-    // A sliver of the light over the horizon that no sample lies on is seen where its highest point is.
-    if (points == 0) return vec3(shareOverHorizon(frame) > leastShare && changeAtTop + atCenter <= 0 ? 1.0 : 0.0);
-    vec3 share = vec3(1.0 - float(covered) / float(points));  // where a channel is black all over
-    vec3 sampled = mix(share, seen / max(all, 1e-30), greaterThan(all, vec3(0.0)));
-    if (isTextured || isCut || frame.tangent > wideLight) return sampled;
-
-    // The exact mean number of layers tells how far the samples' own mean is off; where every blocker is as many layers
-    // deep, their share follows exactly.
-    float mean = float(meanChangeFixed) / fixedOne + float(atCenter);
-    if (covered == 0) return vec3(clamp(1.0 - mean / float(leastChange), 1.0 - 1.0 / float(SAMPLES), 1.0));
-    float depth = float(layerSum) / float(covered);
-    float corrected = 1.0 - mean / depth;
-    if (least < most) {
-        float limit = covered == SAMPLES ? 0.0 : 2.0 / float(SAMPLES);
-        corrected = clamp(corrected, sampled.r - limit, sampled.r + limit);
-    }
-    return vec3(clamp(corrected, 0.0, 1.0));
+    atomicMax(mostPoints, most);
+    barrier();
+    // Sixteen: an edge's own loops, the search for its first point and the clipping.
+    return count * (mostPoints + 16u);
 }
 
 void main() {
-    ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     uint lane = gl_LocalInvocationIndex;
+    uint tile = round_ == 0u ? firstTile + gl_WorkGroupID.y * uint(volume.tiles.x) + gl_WorkGroupID.x
+                             : rounds[roundLists.x + gl_WorkGroupID.x];
+    uvec2 place = uvec2(tile % uint(volume.tiles.x), tile / uint(volume.tiles.x));
+    ivec2 texel = ivec2(8u * place + gl_LocalInvocationID.xy);
     bool isInside = all(lessThan(texel, volume.buffer_px.xy));
 
     Receiver receiver;
     LightFrame frame;
     bool isReceiver = isInside && loadLiftedReceiver(texel, receiver);
     bool seesLight = isReceiver && makeLightFrame(receiver, frame) && horizonSide(frame) >= 0;
-    for (int i = 0; i < SAMPLES; ++i) changes[i] = 0;
     vec2 top = seesLight ? topPlace(frame) : vec2(0.0);
-    int edgesCounted = 0;
+    for (int i = 0; i < SAMPLES; ++i) changes[i] = 0;
+    uint word = 0u;
+    if (round_ > 0u) {
+        loadCounts(tile);
+        word = uint(states[stateAt(tile, stateWords)]);
+    }
 
-    uint tile = gl_WorkGroupID.y * uint(volume.tiles.x) + gl_WorkGroupID.x;
     TileBounds tileBounds = bounds[tile];
-    bool isEmpty = tileBounds.low.x > tileBounds.high.x;
     prepareShaft(tileBounds);
-    uvec2 largeTile = gl_WorkGroupID.xy / uint(volume.tiles.z);
+    uvec2 largeTile = place / uint(volume.tiles.z);
     uint list = (largeTile.y * uint(volume.tiles.y) + largeTile.x) * uint(volume.tiles.w);
-    uint words = isEmpty ? 0u : (eye.edgeCount + 31u) / 32u;
-    for (uint firstWord = 0u; firstWord < words; firstWord += wordsAtOnce) {
-        if (lane == 0u) matteringCount = 0u;
-        barrier();
-        uint word = firstWord + lane;
-        uint bits = word < words ? lists[list + word] : 0u;
-        for (; bits != 0u; bits &= bits - 1u) {
-            uint index = 32u * word + uint(findLSB(bits));
-            if (mayMatter(lightEdges[index])) mattering[atomicAdd(matteringCount, 1u)] = index;
-        }
-        barrier();
-        if (seesLight) {
-            for (uint i = 0u; i < matteringCount; ++i) {
-                if (addEdge(frame, receiver, top, lightEdges[mattering[i]])) ++edgesCounted;
+    bool isEmpty = tileBounds.low.x > tileBounds.high.x;
+    uint words = isEmpty ? 0u : wordsOfEdges(eye.edgeCount);
+    uint work = 0u;
+    while (word < words && work < roundWork) {
+        uint bits = matteringBits(list, word + lane, words);
+        work += 32u;
+        uint count = listMattering(word + lane, bits);
+        if (count <= uint(EDGES_AT_ONCE)) {
+            work += addMattering(frame, receiver, top, seesLight, count);
+            word += wordsAtOnce;
+        } else {
+            // As many words at a time as there is room for.
+            const uint fitting = uint(EDGES_AT_ONCE) / 32u;
+            for (uint first = 0u; first < wordsAtOnce && work < roundWork; first += fitting) {
+                uint part = listMattering(word - first + lane, lane / fitting == first / fitting ? bits : 0u);
+                work += addMattering(frame, receiver, top, seesLight, part);
+                word += fitting;
             }
         }
-        barrier();
+    }
+    if (word < words) {
+        pause(tile, word);
+        return;
     }
 
     if (!isInside) return;

@@ -7,7 +7,9 @@
 #include "penumbra/technique.h"
 #include "src/gl/pass_timers.h"
 #include "src/techniques/common/view_constants.h"
+#include "src/techniques/soft_shadow_volumes/tile_layers.h"
 #include "src/techniques/soft_shadow_volumes/volume_counter.h"
+#include "src/techniques/soft_shadow_volumes/wedge_raster.h"
 
 namespace penumbra {
 
@@ -21,41 +23,34 @@ class SoftVolumes final : public Technique {
     Statistics statistics() const override;
 
   private:
-    void allocate(const VolumeFrame& frame);
-    void prepareSamples(const AreaLight& light);
-    void gatherEdges(const VolumeFrame& frame);
-    void resolve(GLuint target, GLenum format);
     void resolveHard(const VisibilityBuffer& out);
     int chooseSize();
+    void allocateVBuffer(glm::ivec2 size_px, GLenum format);
     void upsample(const VisibilityBuffer& out);
-    void drawWedges(GLuint target, GLenum format);
 
     enum class Method { layers, wedges };
     int method_ = int(Method::layers);
     int counting_ = 0;
-    int samples_ = 64;
+    TileLayers::Effort effort_;
+    int marking_ = int(WedgeRaster::Marking::none);
+    bool wireframe_ = false;
     int vBufferSize_ = 0;       // full, half, quarter
     float frameBudget_ms_ = 0;  // 0: none
     int budgetedSize_ = 0;      // the size that the budget has led to
+    int framesAtSize_ = 0;      // since then
 
-    Device::Internals& device_;
+    const bool isSoftware_;
     VolumeCounter counter_;
-    gl::Program gather_, bounds_, lists_, radiance_, resolve_, hardResolve_, wedges_, wedgeResolve_,
-        upsample_;
-    gl::VertexArrayHandle noVertices_;
-    int sampleCount_ = 0;     // of this light
-    int resolveSamples_ = 0;  // that `resolve_` was made for
-    int placedSamples_ = 0;
-    bool placedOnSquare_ = false;
+    TileLayers layers_;
+    WedgeRaster wedges_;
+    gl::Program hardResolve_, upsampleEven_, upsample_;
     ViewBinding view_;
     gl::ConstantBuffer<VolumeConstants> constants_;
-    VolumeConstants frame_{};
-    gl::Buffer lightEdges_, tileBounds_, tileLists_, samplePlaces_, sampleRadiances_;
-    gl::Texture edgeCounts_, wedgeLayers_, vBuffer_;
-    gl::Framebuffer wedgeFramebuffer_;
-    std::size_t largestEdgeCount_ = 0;
+    gl::Texture vBuffer_;
+    gl::Buffer mixedTiles_;  // of the picture, that upsample_ has to look at
     AlphaMaskWarning alphaMaskWarning_;
     gl::PassTimers timers_;
+    gl::PassTimers sizeTimers_;  // whole frames, a pass for each size of the V-buffer
 };
 
 }  // namespace penumbra

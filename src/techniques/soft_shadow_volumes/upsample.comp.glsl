@@ -8,6 +8,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 #include "src/techniques/soft_shadow_volumes/lifted_receiver.glsl"
 
+layout(std430, binding = 0) readonly buffer MixedTiles { uint mixedTiles[]; };  // see upsample_even.comp.glsl
 layout(binding = 3) uniform sampler2D vBuffer;
 layout(binding = 0) uniform writeonly image2D visibility;
 
@@ -16,56 +17,56 @@ layout(binding = 0) uniform writeonly image2D visibility;
 const float offPlane = 0.167;
 const float sameNormal = 0.75;
 
-// 0: another surface.
-float kinship(Receiver pixel, ivec2 texel, out float distance_m) {
+const float nowhere = 3e38;
+
+// Whether the texel lies on the pixel's surface. How far it is in any case: far, where it is on another.
+bool isKin(Receiver pixel, ivec2 texel, out float distance_m) {
     Receiver other;
-    distance_m = uintBitsToFloat(0x7f800000u);
-    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, volume.buffer_px.xy))) return 0.0;
-    if (!loadLiftedReceiver(texel, other)) return 0.0;
+    distance_m = nowhere;
+    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, volume.buffer_px.xy))) return false;
+    if (!loadLiftedReceiver(texel, other)) return false;
     vec3 way = other.posLight - pixel.posLight;
-    float reach = length(way);
+    distance_m = length(way);
     float rounding = 1e-5 * length(pixel.posLight);
-    if (dot(pixel.normalLight, other.normalLight) < sameNormal ||
-        abs(dot(pixel.normalLight, way)) > offPlane * reach + rounding) {
-        distance_m = reach * 1e6;  // to be taken only where no texel around is any better
-        return 0.0;
-    }
-    distance_m = reach;
-    return 1.0;
+    bool kin = dot(pixel.normalLight, other.normalLight) >= sameNormal &&
+               abs(dot(pixel.normalLight, way)) <= offPlane * distance_m + rounding;
+    // To be taken only where no texel around is any better.
+    if (!kin) distance_m *= 1e6;
+    return kin;
 }
 
+vec3 texelAt(ivec2 texel) { return texelFetch(vBuffer, clamp(texel, ivec2(0), volume.buffer_px.xy - 1), 0).rgb; }
+
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
+    uint tilesAcross = uint(view.size_px.x + 7) / 8u, tile = mixedTiles[3u + gl_WorkGroupID.x];
+    ivec2 pixel = ivec2(8u * uvec2(tile % tilesAcross, tile / tilesAcross) + gl_LocalInvocationID.xy);
     Receiver receiver;
-    vec3 seen = vec3(1.0);
-    if (loadReceiver(pixel, receiver)) {
-        int scale = volume.buffer_px.z;
-        ivec2 first = pixel / scale;
-        vec2 part = vec2(pixel - first * scale) / float(scale);
-        vec3 sum = vec3(0.0);
-        float weights = 0.0, nearest = uintBitsToFloat(0x7f800000u), distance_m;
-        for (int y = 0; y < 2; ++y) {
-            for (int x = 0; x < 2; ++x) {
-                vec2 share = mix(1.0 - part, part, vec2(x, y));
-                float weight = share.x * share.y * kinship(receiver, first + ivec2(x, y), distance_m);
-                sum += weight * texelFetch(vBuffer, first + ivec2(x, y), 0).rgb;
-                weights += weight;
-            }
-        }
-        if (weights > 0.0) {
-            seen = sum / weights;
-        } else {
-            // A surface thinner than a texel: its nearest texel in a wider ring, if it has one.
-            for (int y = -1; y < 3; ++y) {
-                for (int x = -1; x < 3; ++x) {
-                    kinship(receiver, first + ivec2(x, y), distance_m);
-                    if (distance_m < nearest) {
-                        nearest = distance_m;
-                        seen = texelFetch(vBuffer, first + ivec2(x, y), 0).rgb;
-                    }
-                }
-            }
+    if (any(greaterThanEqual(pixel, view.size_px.xy)) || !loadReceiver(pixel, receiver)) return;
+
+    int scale = volume.buffer_px.z;
+    ivec2 first = pixel / scale;
+    vec2 part = vec2(pixel - first * scale) / float(scale);
+    vec3 sum = vec3(0.0);
+    float weights = 0.0, distance_m;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 step = ivec2(i & 1, i >> 1);
+        vec2 share = mix(1.0 - part, part, vec2(step));
+        float weight = isKin(receiver, first + step, distance_m) ? share.x * share.y : 0.0;
+        sum += weight * texelAt(first + step);
+        weights += weight;
+    }
+    vec3 seen = sum / max(weights, 1e-30);
+
+    // A surface thinner than a texel: its nearest texel in a wider ring, if it has one.
+    int ring = weights > 0.0 ? 0 : 16;
+    float nearest = nowhere;
+    if (ring > 0) seen = vec3(1.0);
+    for (int i = 0; i < ring; ++i) {
+        ivec2 texel = first + ivec2(i & 3, i >> 2) - 1;
+        isKin(receiver, texel, distance_m);
+        if (distance_m < nearest) {
+            nearest = distance_m;
+            seen = texelAt(texel);
         }
     }
     imageStore(visibility, pixel, vec4(seen, 1.0));

@@ -129,6 +129,17 @@ void VolumeCounter::drawCaps(const VolumeFrame& frame, std::size_t ofPair, float
     }
 }
 
+void VolumeCounter::drawReceiverDepth(GLuint framebuffer, glm::ivec2 size_px) const {
+    glBindVertexArray(noVertices_.name());
+    gl::beginPass(framebuffer, {.width_px = size_px.x,
+                                .height_px = size_px.y,
+                                .depthTest = GL_ALWAYS,
+                                .depthWrite = true,
+                                .colorWrite = false});
+    depthCopy_.use();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
 void VolumeCounter::render(const VolumeFrame& frame, Counting counting) {
     const VolumeConstants& constants = frame.constants;
     allocate(constants.buffer_px.x, constants.buffer_px.y);
@@ -136,14 +147,7 @@ void VolumeCounter::render(const VolumeFrame& frame, Counting counting) {
     layersEach_.write(frame.layersEach);
     examineEye(frame, counting);
 
-    glBindVertexArray(noVertices_.name());
-    gl::beginPass(framebuffer_.name(), {.width_px = constants.buffer_px.x,
-                                        .height_px = constants.buffer_px.y,
-                                        .depthTest = GL_ALWAYS,
-                                        .depthWrite = true,
-                                        .colorWrite = false});
-    depthCopy_.use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    drawReceiverDepth(framebuffer_.name(), glm::ivec2(constants.buffer_px));
 
     const bool reversed = constants.buffer_px.w == 1;
     const float zero = 0;

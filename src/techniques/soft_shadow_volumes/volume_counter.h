@@ -30,6 +30,9 @@ class VolumeCounter {
     void bind(unsigned unit, unsigned block) const;
     void bindLayersEach(unsigned block) const { layersEach_.bind(block); }
 
+    /// Draws the receivers' depths into a framebuffer of the V-buffer's size.
+    void drawReceiverDepth(GLuint framebuffer, glm::ivec2 size_px) const;
+
     const gl::Texture& counts() const { return counts_; }
     const gl::Texture& depth() const { return depth_; }
     const SilhouetteExtractor& silhouettes() const { return silhouettes_; }

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
+#include "src/geometry/capping.h"
 #include "src/techniques/common/glm_types.h"
 #include "src/techniques/common/light_camera.h"
 #include "src/techniques/common/view_constants.h"
@@ -53,6 +54,25 @@ double nearReach_m(const View& view) {
     return eyeView(view).w == 0 ? std::numeric_limits<double>::infinity() : reach_m;
 }
 
+struct LightBox {
+    glm::dvec3 low, high;
+};
+
+/// Around a mesh, in light space.
+LightBox boxOf(const Mesh& mesh, const glm::dmat4& lightFromMesh) {
+    const Box& box = mesh.bounds();
+    LightBox result{glm::dvec3(std::numeric_limits<double>::max()),
+                    glm::dvec3(-std::numeric_limits<double>::max())};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec4 posMesh((corner & 1) ? box.max.x : box.min.x, (corner & 2) ? box.max.y : box.min.y,
+                                 (corner & 4) ? box.max.z : box.min.z, 1);
+        const glm::dvec3 posLight(lightFromMesh * posMesh);
+        result.low = glm::min(result.low, posLight);
+        result.high = glm::max(result.high, posLight);
+    }
+    return result;
+}
+
 }  // namespace
 
 bool hasNoSize(const AreaLight& light) {
@@ -84,36 +104,45 @@ VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel)
     : lightFromWorld(penumbra::lightFromWorld(inputs)) {
     const View& view = inputs.view;
     const AreaLight& light = inputs.light;
-    const glm::dmat4 lightFromView = lightFromWorld * glm::inverse(toGlm(view.viewFromWorld));
     const glm::ivec2 size_px((view.width_px + pixelsPerTexel - 1) / pixelsPerTexel,
                              (view.height_px + pixelsPerTexel - 1) / pixelsPerTexel);
-
-    constants.eyeLight = lightFromView * eyeView(view);
-    const double reach_m = nearReach_m(view);
-    double highest_m = -std::numeric_limits<double>::max();
-    for (const Caster& caster : inputs.casters) {
-        if (!caster.casts || caster.mesh->indices().empty()) continue;
-        sources.push_back({caster.mesh, lightFromWorld * toGlm(caster.worldFromMesh)});
-        layersEach.push_back(1);
-        const Box& box = caster.mesh->bounds();
-        glm::dvec3 lowest(std::numeric_limits<double>::max()), highest(-lowest);
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec4 posMesh((corner & 1) ? box.max.x : box.min.x,
-                                     (corner & 2) ? box.max.y : box.min.y,
-                                     (corner & 4) ? box.max.z : box.min.z, 1);
-            const glm::dvec3 posLight(sources.back().lightFromMesh * posMesh);
-            lowest = glm::min(lowest, posLight);
-            highest = glm::max(highest, posLight);
-        }
-        highest_m = std::max(highest_m, highest.z);
-        const glm::dvec3 eyeLight(constants.eyeLight);
-        mayHide = mayHide || !(glm::distance(glm::clamp(eyeLight, lowest, highest), eyeLight) > reach_m);
-    }
 
     // A line of light is given a thousandth of its length for a width, so that areas can be divided by.
     glm::dvec2 half(0.5 * light.width_m, 0.5 * light.height_m);
     half = glm::max(half, glm::dvec2(1e-3 * std::max(half.x, half.y)));
     if (light.shape != LightShape::rect) half = glm::dvec2(light.radius_m);
+    const bool isFlat = light.shape == LightShape::rect || light.shape == LightShape::disk;
+    const auto isCut = [&](const LightBox& box) {
+        return isFlat && glm::all(glm::lessThanEqual(box.low, glm::dvec3(half, 0))) &&
+               glm::all(glm::greaterThanEqual(box.high, glm::dvec3(-half, 0)));
+    };
+    const auto casts = [](const Caster& caster) { return caster.casts && !caster.mesh->indices().empty(); };
+
+    // Lights are put into walls by their centres, and everything is counted from there: so that it lies
+    // clearly on one side, a light that may be cut through is moved by less than a ten-thousandth of its
+    // size.
+    if (std::ranges::any_of(inputs.casters, [&](const Caster& caster) {
+            return casts(caster) && isCut(boxOf(*caster.mesh, lightFromWorld * toGlm(caster.worldFromMesh)));
+        })) {
+        const glm::dvec3 off(1e-4 * half * glm::dvec2(0.618, 0.755), 0);
+        lightFromWorld = glm::translate(glm::dmat4(1), off) * lightFromWorld;
+    }
+
+    const glm::dmat4 lightFromView = lightFromWorld * glm::inverse(toGlm(view.viewFromWorld));
+    constants.eyeLight = lightFromView * eyeView(view);
+    const glm::dvec3 eyeLight(constants.eyeLight);
+    const double reach_m = nearReach_m(view);
+    double highest_m = -std::numeric_limits<double>::max();
+    for (const Caster& caster : inputs.casters) {
+        if (!casts(caster)) continue;
+        sources.push_back({caster.mesh, lightFromWorld * toGlm(caster.worldFromMesh)});
+        layersEach.push_back(1);
+        const LightBox box = boxOf(*caster.mesh, sources.back().lightFromMesh);
+        cutsLight.push_back(isCut(box));
+        highest_m = std::max(highest_m, box.high.z);
+        mayHide = mayHide || !(glm::distance(glm::clamp(eyeLight, box.low, box.high), eyeLight) > reach_m);
+    }
+
     // A tangent ends at 90 degrees; nothing is lost by stopping a quarter of a degree before.
     const double tangent = std::tan(std::min(0.5 * double(light.angle_rad), 1.5665));
 
@@ -122,6 +151,14 @@ VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel)
     constants.lightSize = glm::dvec4(half, tangent, highest_m);
     constants.lightKind = {int(light.shape), isOneSided(light), hasNoSize(light), light.radianceTexture != 0};
     constants.buffer_px = {size_px, pixelsPerTexel, view.depth.reversed};
+}
+
+void VolumeFrame::capHoles(Device& device) {
+    for (SilhouetteSource& source : sources) {
+        const Mesh& capped = cappedOf(device, *source.mesh);
+        mayHide = mayHide || &capped != source.mesh;
+        source.mesh = &capped;
+    }
 }
 
 LightPoint VolumeFrame::center() const {

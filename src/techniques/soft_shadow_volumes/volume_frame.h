@@ -19,6 +19,9 @@ struct VolumeFrame {
 
     std::vector<int> layersEach;  ///< for each source: as how many layers a triangle of it counts
 
+    /// For each source: whether it may cut through the light, if that is flat.
+    std::vector<bool> cutsLight;
+
     /// A triangle may lie between the eye and a receiver without being seen: before the near plane, as it may
     /// in every orthographic view.
     bool mayHide = false;
@@ -26,6 +29,9 @@ struct VolumeFrame {
     /// `pixelsPerTexel`: 1, 2, 4: the V-buffer's texel (i, j) stands for the pixel at that multiple of (i,
     /// j).
     VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel);
+
+    /// Closes the holes of all casters with triangles that nobody draws.
+    void capHoles(Device& device);
 
     /// The light's centre.
     LightPoint center() const;

@@ -34,6 +34,9 @@ struct VolumeConstants {
 // An edge with one or two of its faces, in light space; an edge of more faces is several of these, whose
 // weights add. A face's plane, dotted with (p, 1), is positive where p sees its front, times the direction in
 // which the face walks the edge; that of a missing face is 0.
+//
+// w: 0; or where the face ends because it cuts through a flat light, the sign of z on the side that it is the
+// edge of.
 struct LightEdge {
     vec4 aLight;
     vec4 bLight;
@@ -59,6 +62,13 @@ const int shapeRect = 0, shapeDisk = 1, shapeSphere = 2, shapeDistant = 3;
 layout(std140, binding = 1) uniform VolumeBlock {
     VolumeConstants volume;
 };
+
+// How many words of edges there are to look at: none if they did not all fit, since half of the edges are
+// worse than the shadow of the light's centre.
+uint wordsOfEdges(uint edgeCount) {
+    uint words = (edgeCount + 31u) / 32u;
+    return words <= uint(volume.tiles.w) ? words : 0u;
+}
 
 // From the light's centre through a point: the direction in which the point's shadow falls.
 vec3 shadowDirection(vec3 posLight) {

@@ -10,14 +10,16 @@ layout(location = 0) flat in vec3 aLight;
 layout(location = 1) flat in vec3 bLight;
 layout(location = 2) flat in float weight;
 layout(location = 0) out vec2 layers;  // x: additive, y: subtractive
+layout(location = 1) out float evaluations;
 
 void main() {
     layers = vec2(0.0);
+    evaluations = 1.0;
     Receiver receiver;
     LightFrame frame;
-    if (!loadLiftedReceiver(ivec2(gl_FragCoord.xy), receiver) || !makeLightFrame(receiver, frame)) discard;
+    if (!loadLiftedReceiver(ivec2(gl_FragCoord.xy), receiver) || !makeLightFrame(receiver, frame)) return;
     vec3 a, b;
-    if (!edgeBeforeLight(frame, receiver.posLight, aLight, bLight, a, b)) discard;
+    if (!edgeBeforeLight(frame, receiver.posLight, vec4(aLight, 0.0), vec4(bLight, 0.0), a, b)) return;
     a.xy /= a.z;
     b.xy /= b.z;
     float turn = a.x * b.y - a.y * b.x;

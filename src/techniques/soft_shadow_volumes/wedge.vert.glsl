@@ -9,6 +9,9 @@
 layout(std430, binding = 0) readonly buffer Silhouettes { SilhouetteEdge silhouettes[]; };
 layout(std430, binding = 1) readonly buffer Layers { int layersEach[]; };
 
+layout(std430, binding = 2) readonly buffer Commands { SilhouetteCommands commands; };
+layout(location = 0) uniform int wedgeHalf;  // 0: the whole; 1, -1: the half on one or the other side of the middle plane
+
 layout(location = 0) flat out vec3 aLight;
 layout(location = 1) flat out vec3 bLight;
 layout(location = 2) flat out float weight;
@@ -29,6 +32,11 @@ vec3 towardsLight(vec3 from, vec3 signs, mat3 axes) {
 }
 
 void main() {
+    // Where wedges are drawn one by one, nobody has said how many there are.
+    if (uint(gl_VertexID / 24) >= commands.edgeCount) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+        return;
+    }
     SilhouetteEdge edge = silhouettes[gl_VertexID / 24];
     aLight = edge.aLight;
     bLight = edge.bLight;
@@ -67,6 +75,10 @@ void main() {
     // Never thinner than rounding.
     low -= 1e-4 * (high - low) + 1e-6;
     high += 1e-4 * (high - low) + 1e-6;
+
+    // The middle plane holds the edge and the light's centre: y = 0.
+    if (wedgeHalf > 0) low.y = 0.0;
+    if (wedgeHalf < 0) high.y = 0.0;
 
     int corner = corners[gl_VertexID % 24];
     vec4 place;

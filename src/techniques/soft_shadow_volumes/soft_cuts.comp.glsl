@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 450
+// A triangle that cuts through a flat light hides what it hides with the part on the receiver's side of the light's
+// plane. That part ends in the cut: an edge of this face alone, in the light itself.
+layout(local_size_x = 256) in;
+
+#include "src/techniques/soft_shadow_volumes/volumes_io.h"
+#include "src/techniques/soft_shadow_volumes/gathering.glsl"
+
+layout(location = 4) uniform uint triangleCount;
+
+// The part strictly on the side where z has this sign, walked as the face is, leaves through the plane at `from` and comes
+// back at `to`.
+void gatherCut(vec3 corners[3], vec4 plane, float side) {
+    vec3 from, to;
+    int crossings = 0;
+    for (int i = 0; i < 3; ++i) {
+        vec3 a = corners[i], b = corners[(i + 1) % 3];
+        bool hasA = side * a.z > 0.0, hasB = side * b.z > 0.0;
+        if (hasA == hasB) continue;
+        if (hasA) from = cutPoint(a, b);
+        else to = cutPoint(a, b);
+        ++crossings;
+    }
+    if (crossings < 2) return;
+    // Beside the light?
+    vec2 low = min(from.xy, to.xy), high = max(from.xy, to.xy), size = volume.lightSize.xy;
+    if (any(greaterThan(low, size)) || any(lessThan(high, -size))) return;
+    gather(LightEdge(vec4(from, side), vec4(to, side), vec4[2](plane, vec4(0.0))));
+}
+
+void main() {
+    uint triangle = gl_GlobalInvocationID.x;
+    if (triangle >= triangleCount) return;
+    vec3 corners[3];
+    for (uint i = 0u; i < 3u; ++i) corners[i] = positionLight(indices[3u * triangle + i]);
+    // What collapses has no edges either.
+    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
+    vec4 plane = facePlane(2u * triangle);
+    gatherCut(corners, plane, -1.0);
+    if (volume.lightKind.y == 0) gatherCut(corners, plane, 1.0);
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Penumbra wedges as the thesis draws them (sections 4.2.3 to 4.2.7): the oracle to which counting layers is
+// held.
+#pragma once
+
+#include "src/gl/pass_timers.h"
+#include "src/gl/texture.h"
+#include "src/techniques/soft_shadow_volumes/volume_counter.h"
+
+namespace penumbra {
+
+class WedgeRaster {
+  public:
+    explicit WedgeRaster(Device& device);
+
+    enum class Marking {
+        none,     ///< wedges are drawn at once, and a pixel outside of one finds that it adds nothing
+        stencil,  ///< pixels inside each half wedge are marked first (figure 11), so that only they pay
+    };
+    struct Options {
+        Marking marking = Marking::none;
+        bool wireframe = false;  ///< outlines the wedges for inspection
+    };
+
+    /// Wedges weigh blockers, not layers: a closed caster hides the light with two layers, an open one with
+    /// each. To be called before the frame is counted.
+    static void countAsBlockers(VolumeFrame& frame);
+
+    /// Writes visibility into `target`, a texture of the V-buffer's size. The frame's constants, the view and
+    /// what `counter` counted must be there.
+    void render(const VolumeFrame& frame, const VolumeCounter& counter, Options options, GLuint target,
+                GLenum format, gl::PassTimers& timers);
+
+    /// The V-buffer's additive and subtractive layer; how many (half) wedges each texel was evaluated for;
+    /// and the last outlines, where they were asked for.
+    void inspect(InspectionVisitor& visitor) const;
+
+  private:
+    void allocate(glm::ivec2 size_px, Options options);
+    void drawAll(const VolumeCounter& counter) const;
+    void drawMarked(const VolumeFrame& frame, const VolumeCounter& counter) const;
+    void drawWireframe(const VolumeCounter& counter, glm::ivec2 size_px) const;
+
+    gl::Program wedges_, marks_, resolve_;
+    gl::VertexArrayHandle noVertices_;
+    gl::Texture layers_, evaluations_, depthAndMarks_, wireframe_;
+    gl::Framebuffer framebuffer_, wireframeFramebuffer_;
+};
+
+}  // namespace penumbra
