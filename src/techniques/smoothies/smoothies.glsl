@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How wide a smoothie is, and how visibility changes across it. Includer defines SMOOTHIE_BLOCK and what depth_map.glsl
-// needs.
+// How wide a smoothie is, and how visibility changes across it.
 //
 // A "place" is a point in a light camera's window: tangents (x/z, y/z), or metres where the camera is orthographic.
 // "Nearness" is 1/z of a perspective camera and -z of an orthographic one. Both are linear in the window along a
@@ -11,33 +10,32 @@
 //     w = h (nb - nr),   h = max over s of dot(n, s.xy - s.z q).
 // With t = h nb that is t (1 - b/r): equation 1, with the size of the smoothie that the light asks for. For a distant
 // light h is the tangent of half its angle.
-#include "src/techniques/common/depth_map.glsl"
 #include "src/techniques/smoothies/smoothies_io.h"
 
-layout(std430, binding = SMOOTHIE_BLOCK) readonly buffer Smoothies { SmoothieConstants smoothies[]; };
+// A uniform block, since storage blocks are read lane by lane on software rasterisers.
+layout(std140, binding = 1) uniform SmoothieBlock { SmoothieConstants smoothies[maxSmoothieCameras]; };
 
 const int shapeRect = 0, shapeDisk = 1, shapeSphere = 2, shapeDistant = 3;
 const int falloffLight = 0, falloffLinear = 1, falloffSinusoidal = 2;
-const float noSmoothie = 3.0e38;  // a depth behind everything
 
-bool isOrthographic(int camera) { return lightCameras[camera].depth.z == 1.0; }
+bool isOrthographic(int camera) { return smoothies[camera].camera.depth.z == 1.0; }
 
 float nearnessOf(int camera, float depth_m) { return isOrthographic(camera) ? -depth_m : 1.0 / depth_m; }
 
 // The same for a value in the depth map; where that is empty, of the farthest receiver.
 float storedNearness(int camera, float stored) {
     if (stored == 0.0) return smoothies[camera].nearness.x;
-    vec4 depth = lightCameras[camera].depth;
+    vec4 depth = smoothies[camera].camera.depth;
     return depth.z == 1.0 ? stored * (depth.y - depth.x) - depth.y : stored / depth.x;
 }
 
 vec2 placeOf(int camera, vec2 uv) {
-    vec4 window = lightCameras[camera].window;
+    vec4 window = smoothies[camera].camera.window;
     return uv / window.zw + window.xy;
 }
 
 ivec2 texelOf(int camera, vec2 place, int size_px) {
-    vec4 window = lightCameras[camera].window;
+    vec4 window = smoothies[camera].camera.window;
     return clamp(ivec2(floor((place - window.xy) * window.zw * float(size_px))), ivec2(0), ivec2(size_px - 1));
 }
 

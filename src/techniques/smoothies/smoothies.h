@@ -4,6 +4,9 @@
 // says what is theirs and what goes past it.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "penumbra/technique.h"
 #include "src/geometry/silhouette_extractor.h"
 #include "src/gl/pass_timers.h"
@@ -28,10 +31,12 @@ class Smoothies final : public Technique {
   private:
     SmoothieConstants constantsOf(const AreaLight& light, const LightCamera& camera,
                                   const LightSpaceScene& scene) const;
+    std::vector<SilhouetteSource> silhouetteSources(const ShadowInputs& inputs,
+                                                    const LightSpaceScene& scene);
     void allocate(int layers);
     void buildSmoothies(bool distant);
-    void drawSmoothies(const gl::Program& program, const gl::Framebuffer& framebuffer,
-                       const gl::Texture& color, const gl::Texture* depth) const;
+    void bindSurfaces() const;
+    void drawSmoothies();
 
     int mapSize_px_ = 1024;
     float t_ = 0;
@@ -43,12 +48,12 @@ class Smoothies final : public Technique {
     DepthMap depthMap_, receiverMap_;
     bool hasReceiverMap_ = false;
     SilhouetteExtractor silhouettes_;
-    gl::Program farthest_, build_, clearNormals_, addNormals_, outerProgram_, innerProgram_, resolve_;
-    gl::Buffer tiles_, vertexNormals_, smoothieEdges_;
+    gl::Program farthest_, build_, clearNormals_, addNormals_, smoothie_, classify_, resolve_;
+    gl::Buffer farthestTiles_, vertexNormals_, smoothieEdges_, tiles_;
     gl::VertexArrayHandle noVertices_;
-    gl::Texture outer_, innerEdges_, innerOrder_;
-    gl::Framebuffer outerFramebuffer_, innerFramebuffer_;
-    gl::StorageArray<SmoothieConstants> constants_;
+    gl::Texture deepest_, order_;
+    gl::Framebuffer framebuffer_;
+    gl::ConstantBuffer<std::array<SmoothieConstants, maxSmoothieCameras>> constants_;
     ViewBinding view_;
     gl::PassTimers timers_;
     bool hasSmoothies_ = false;

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a light camera needs to know for drawing and reading smoothies; one struct for C++ and GLSL (std430).
+// What a light camera needs to know for drawing and reading smoothies; one struct for C++ and GLSL (std140).
 #ifndef PENUMBRA_SMOOTHIES_IO_H
 #define PENUMBRA_SMOOTHIES_IO_H
 
+#include "src/techniques/common/light_camera_io.h"
 #ifdef __cplusplus
-#include <glm/glm.hpp>
 namespace penumbra {
 using glm::ivec4;
-using glm::vec4;
 #endif
 
+const int maxSmoothieCameras = 6;  // the faces of a cube
+const int layersPerCamera = 4;     // of edge numbers: the outer half, and three of the inner half
+const int tileSize_px = 8;         // of the picture, for the pixels that smoothies reach
+const int tilesPerRow = 1024;      // of the list of those tiles, as it is dispatched
+
 struct SmoothieConstants {
+    LightCameraConstants camera;
     vec4 halfX;      // xyz: the light's half axis along its width or radius, in face space, metres
     vec4 halfY;      // xyz: the same along its height
     vec4 widths;     // x: radius (sphere, m) or tangent of half the angle (distant); y: fixed width t, 0 for
@@ -20,7 +25,7 @@ struct SmoothieConstants {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(SmoothieConstants) == 80);
+static_assert(sizeof(SmoothieConstants) == 240);
 }  // namespace penumbra
 #endif
 #endif
