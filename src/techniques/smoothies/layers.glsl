@@ -14,3 +14,6 @@ int innerLayer(vec2 outward) {
     int third = along.x >= along.y && along.x >= along.z ? 0 : (along.y >= along.z ? 1 : 2);
     return firstInnerLayer + third;
 }
+
+// Where to look for what an edge does not hide, in texels of the depth map past it.
+const float beyondTexels = 1.5;

@@ -74,6 +74,7 @@ Neighbours neighboursOf(Lookup l) {
 }
 
 uint edgeAt(Lookup l, ivec2 texel, int layer) {
+    texel = texel * textureSize(deepestEdges, 0).xy / textureSize(depthMaps, 0).xy;
     return texelFetch(deepestEdges, ivec3(texel, layersPerCamera * l.camera + layer), 0).r;
 }
 

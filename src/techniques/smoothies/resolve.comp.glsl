@@ -15,8 +15,6 @@ layout(location = 3) uniform uint capacity;  // edges for each camera
 // A sliver of a light above the horizon is taken for none: the quotient of two such parts is all noise.
 const float leastPart = 0.004;
 
-const float beyondTexels = 1.5;
-
 // What comes past one silhouette edge.
 struct PastEdge {
     float seen;
@@ -36,7 +34,7 @@ PastEdge pastEdge(Lookup l, ivec2 texel, int layer) {
     vec2 closest = edge.ends.xy + s * along;
     float blocker = mix(edge.nearness.x, edge.nearness.y, s);
     float receiver = nearnessOf(l.camera, l.point.posFace.z);
-    if (receiver >= blocker) return nothing;
+    if (nearnessOf(l.camera, l.point.posFace.z - l.tolerance_m) >= blocker) return nothing;
 
     // The texel tells on which side of the edge it lies, and the receiver may lie on the other.
     float windowTexel = smoothies[l.camera].camera.depth.w;
@@ -44,7 +42,7 @@ PastEdge pastEdge(Lookup l, ivec2 texel, int layer) {
     vec2 offset = place - closest;
     float distance_ = length(offset);
     float towards = inner ? -1.0 : 1.0;
-    if (towards * dot(offset, side) < 0.0 && distance_ < beyondTexels * windowTexel) towards = -towards;
+    if (towards * dot(offset, side) < 0.0 && distance_ < 1.5 * smoothieTexel_px * windowTexel) towards = -towards;
     vec2 outward = distance_ > 1e-3 * windowTexel ? towards * offset / distance_ : side;
 
     LightExtent extent = lightExtent(l.camera, place, outward);

@@ -19,25 +19,28 @@ layout(location = 4) in float blocker;
 
 layout(location = 0) out uint deepestEdge;
 
-const float beyondTexels = 1.5;
-
 void main() {
-    float texel = smoothies[camera].camera.depth.w;
-    vec2 offset = place - closest;
-    float distance_ = length(offset);
     bool inner = layer != layerOuter;
-    vec2 normal = distance_ > 1e-3 * texel ? (inner ? -offset : offset) / distance_ : outward;
+    float towards = inner ? -1.0 : 1.0;
+    float texel = smoothies[camera].camera.depth.w;
+    vec2 offset = towards * (place - closest);
+    float distance_ = length(offset);
+    vec2 normal = distance_ > 1e-3 * texel ? offset / distance_ : outward;
+    bool across = dot(offset, outward) < 0.0 && distance_ < smoothieTexel_px * texel;
+    if (across) normal = outward;
 
     // A blocker that hides the edge here (or, of the inner half, just beyond the edge) hides its penumbra.
-    ivec2 surface = inner ? texelOf(camera, closest + beyondTexels * texel * normal, textureSize(depthMaps, 0).x)
-                          : ivec2(gl_FragCoord.xy);
+    vec2 beyond = closest + max(inner ? 0.0 : distance_, beyondTexels * texel) * normal;
+    ivec2 surface = texelOf(camera, beyond, textureSize(depthMaps, 0).x);
     float receiver = blockerNearness(camera, surface);
     if (receiver >= blocker) discard;
     float other = receiverNearness(camera, surface);
     if (other < blocker) receiver = max(receiver, other);
 
-    float alpha = distance_ / smoothieWidth(camera, lightExtent(camera, place, normal).half_m, blocker, receiver);
-    if (!inner && alpha >= 1.0) discard;
+    // Across the edge (see `overlap`) it is better than none, no more.
+    float width = smoothieWidth(camera, lightExtent(camera, place, normal).half_m, blocker, receiver);
+    float alpha = across ? 1.0 : distance_ / width;
+    if (!inner && alpha > 1.0) discard;
     deepestEdge = edgeNumber;
     gl_FragDepth = alpha / (1.0 + alpha);
 }

@@ -18,8 +18,9 @@ layout(location = 2) out vec2 place;
 layout(location = 3) out vec2 closest;   // the edge's point that is closest to the place
 layout(location = 4) out float blocker;  // the nearness there
 
-// Rasterising the edge once for the blocker and once for the smoothie may disagree by the precision of a vertex.
-const float overlapTexels = 0.02;
+// Smoothies are drawn coarser than the depth map. A texel that holds any place on this side of the edge may have its centre
+// beyond it.
+const float overlap = 0.75 * float(smoothieTexel_px);
 
 void main() {
     edgeNumber = uint(gl_VertexID / verticesPerSmoothie);
@@ -41,7 +42,7 @@ void main() {
         closest = mix(edge.ends.xy, edge.ends.zw, s);
         blocker = mix(edge.nearness.x, edge.nearness.y, s);
         float width = mix(edge.widths.x, edge.widths.y, s);
-        place = closest + mix(-overlapTexels * c.depth.w, width, corners[corner].y) * side;
+        place = closest + mix(-overlap * c.depth.w, width, corners[corner].y) * side;
     } else {
         bool atB = corner >= 12;
         closest = atB ? edge.ends.zw : edge.ends.xy;

@@ -112,10 +112,11 @@ SmoothieConstants Smoothies::constantsOf(const AreaLight& light, const LightCame
 }
 
 void Smoothies::allocate(int layers) {
-    if (deepest_.width_px() == mapSize_px_ && deepest_.layers() >= layers) return;
+    const int size_px = std::max(1, mapSize_px_ / smoothieTexel_px);
+    if (deepest_.width_px() == size_px && deepest_.layers() >= layers) return;
     const auto make = [&](GLenum format, std::string_view label) {
-        return gl::Texture({.width_px = mapSize_px_,
-                            .height_px = mapSize_px_,
+        return gl::Texture({.width_px = size_px,
+                            .height_px = size_px,
                             .layers = layers,
                             .format = format,
                             .label = label});
@@ -175,8 +176,8 @@ void Smoothies::bindSurfaces() const {
 void Smoothies::drawSmoothies() {
     constexpr std::array<GLuint, 4> noEdge = {0xffffffffu};
     constexpr float farthest = 1;
-    gl::beginPass(framebuffer_.name(), {.width_px = mapSize_px_,
-                                        .height_px = mapSize_px_,
+    gl::beginPass(framebuffer_.name(), {.width_px = deepest_.width_px(),
+                                        .height_px = deepest_.height_px(),
                                         .depthTest = GL_LESS,
                                         .depthWrite = true});
     smoothie_.use();

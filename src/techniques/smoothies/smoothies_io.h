@@ -11,6 +11,7 @@ using glm::ivec4;
 
 const int maxSmoothieCameras = 6;  // the faces of a cube
 const int layersPerCamera = 4;     // of edge numbers: the outer half, and three of the inner half
+const int smoothieTexel_px = 2;    // of the depth map, along each axis
 const int tileSize_px = 8;         // of the picture, for the pixels that smoothies reach
 const int tilesPerRow = 1024;      // of the list of those tiles, as it is dispatched
 
