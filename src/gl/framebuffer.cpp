@@ -45,8 +45,4 @@ void Framebuffer::attachDepthLayer(const Texture& depth, int layer) {
     glNamedFramebufferTextureLayer(name(), GL_DEPTH_ATTACHMENT, depth.name(), 0, layer);
 }
 
-void Framebuffer::attachColorLayer(const Texture& color, int layer) {
-    glNamedFramebufferTextureLayer(name(), GL_COLOR_ATTACHMENT0, color.name(), 0, layer);
-}
-
 }  // namespace penumbra::gl

@@ -25,8 +25,6 @@ class Framebuffer {
     /// Attaches one layer of the depth texture alone, for drivers that cannot choose a layer in the vertex
     /// shader.
     void attachDepthLayer(const Texture& depth, int layer);
-    /// The same with the first colour texture.
-    void attachColorLayer(const Texture& color, int layer);
 
     GLuint name() const { return handle_.name(); }
 

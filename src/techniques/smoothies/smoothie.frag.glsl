@@ -9,18 +9,18 @@
 #include "src/techniques/smoothies/surfaces.glsl"
 
 layout(location = 1) uniform int camera;
-layout(location = 2) uniform int layer;
 
 layout(location = 0) flat in uint edgeNumber;
 layout(location = 1) flat in vec2 outward;
-layout(location = 2) in vec2 place;
-layout(location = 3) in vec2 closest;
-layout(location = 4) in float blocker;
+layout(location = 2) flat in int isInner;
+layout(location = 3) in vec2 place;
+layout(location = 4) in vec2 closest;
+layout(location = 5) in float blocker;
 
 layout(location = 0) out uint deepestEdge;
 
 void main() {
-    bool inner = layer != layerOuter;
+    bool inner = isInner == 1;
     float towards = inner ? -1.0 : 1.0;
     float texel = smoothies[camera].camera.depth.w;
     vec2 offset = towards * (place - closest);

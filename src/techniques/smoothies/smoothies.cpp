@@ -59,10 +59,11 @@ Smoothies::Smoothies(Device& device)
       clearNormals_(device_.shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"}, {"CLEAR"}),
       addNormals_(device_.shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"}),
       smoothie_(device_.shaders, {"src/techniques/smoothies/smoothie.vert.glsl",
+                                  "src/techniques/smoothies/smoothie.geom.glsl",
                                   "src/techniques/smoothies/smoothie.frag.glsl"}),
       classify_(device_.shaders, {"src/techniques/smoothies/classify.comp.glsl"}),
       resolve_(device_.shaders, {"src/techniques/smoothies/resolve.comp.glsl"}),
-      noVertices_(gl::makeFloatVertexArray(3)),
+      edgesAsVertices_(gl::makeFloatVertexArray(4, 4, 4)),
       constants_("smoothie constants") {}
 
 void Smoothies::describe(ParameterVisitor& visitor) {
@@ -166,6 +167,7 @@ void Smoothies::buildSmoothies(bool distant) {
     glUniform1i(0, GLint(cameras));
     glUniform1ui(1, GLuint(silhouettes_.edgeCount()));
     dispatchEdges();
+    glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
 }
 
 void Smoothies::bindSurfaces() const {
@@ -181,22 +183,22 @@ void Smoothies::drawSmoothies() {
                                         .depthTest = GL_LESS,
                                         .depthWrite = true});
     smoothie_.use();
-    glBindVertexArray(noVertices_.name());
+    glBindVertexArray(edgesAsVertices_.name());
     bindSurfaces();
-    bindStorage(2, smoothieEdges_);
     glUniform1i(0, hasReceiverMap_);
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, silhouettes_.commands().name());
+    glClearNamedFramebufferuiv(framebuffer_.name(), GL_COLOR, 0, noEdge.data());
+    glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &farthest);
     for (int camera = 0; camera < depthMap_.count(); ++camera) {
-        glUniform1i(1, camera);
-        glUniform1ui(3, GLuint(std::size_t(camera) * silhouettes_.edgeCount()));
-        for (int layer = 0; layer < (inner_ ? layersPerCamera : 1); ++layer) {
-            framebuffer_.attachColorLayer(deepest_, layersPerCamera * camera + layer);
-            framebuffer_.attachDepthLayer(order_, layersPerCamera * camera + layer);
-            glClearNamedFramebufferuiv(framebuffer_.name(), GL_COLOR, 0, noEdge.data());
-            glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &farthest);
-            glUniform1i(2, layer);
-            glDrawArraysIndirect(GL_TRIANGLES, nullptr);
+        const std::size_t first = std::size_t(camera) * silhouettes_.edgeCount();
+        for (GLuint attribute = 0; attribute < 3; ++attribute) {
+            glEnableVertexArrayAttrib(edgesAsVertices_.name(), attribute);
+            glVertexArrayVertexBuffer(edgesAsVertices_.name(), attribute, smoothieEdges_.name(),
+                                      GLintptr(first * sizeof(SmoothieEdge) + attribute * sizeof(glm::vec4)),
+                                      sizeof(SmoothieEdge));
         }
+        glUniform1i(1, camera);
+        glDrawArraysIndirect(GL_POINTS, nullptr);
     }
 }
 
@@ -232,7 +234,7 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
             const auto pass = timers_.pass("smoothies/silhouettes");
             silhouettes_.extract(silhouetteSources(inputs, scene),
                                  distant ? LightPoint(0, 0, 1, 0) : LightPoint(0, 0, 0, 1),
-                                 {.verticesPerEdge = unsigned(verticesPerSmoothie)});
+                                 {});
         }
         {
             const auto pass = timers_.pass("smoothies/construction");

@@ -50,7 +50,7 @@ class Smoothies final : public Technique {
     SilhouetteExtractor silhouettes_;
     gl::Program farthest_, build_, clearNormals_, addNormals_, smoothie_, classify_, resolve_;
     gl::Buffer farthestTiles_, vertexNormals_, smoothieEdges_, tiles_;
-    gl::VertexArrayHandle noVertices_;
+    gl::VertexArrayHandle edgesAsVertices_;
     gl::Texture deepest_, order_;
     gl::Framebuffer framebuffer_;
     gl::ConstantBuffer<std::array<SmoothieConstants, maxSmoothieCameras>> constants_;
