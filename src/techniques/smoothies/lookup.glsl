@@ -78,28 +78,28 @@ uint edgeAt(Lookup l, ivec2 texel, int layer) {
     return texelFetch(deepestEdges, ivec3(texel, layersPerCamera * l.camera + layer), 0).r;
 }
 
-// Where the light stands over the receiver's horizon: how far up its centre is, from -1 (all of it below) to 1 (above).
+// Where the light stands over the receiver's horizon.
 struct Horizon {
-    float height;
-    float spread;  // as LightExtent
+    float height;  // of its centre, from -1 (all of it below) to 1 (above)
+    LightExtent extent;
 };
 
 Horizon horizonOf(Receiver receiver) {
-    if (isOneSided && receiver.posLight.z >= 0.0) return Horizon(-1.0, 0.0);
+    LightExtent none = LightExtent(0.0, 0.0, vec2(0.0));
+    if (isOneSided && receiver.posLight.z >= 0.0) return Horizon(-1.0, none);
     vec3 normal = receiver.normalLight;
     float elevation = dot(normal, isDistant ? vec3(0.0, 0.0, 1.0) : -receiver.posLight);
     SmoothieConstants c = smoothies[0];
-    float half_m, spread = 0.0;
+    LightExtent extent = none;
     if (c.settings.x == shapeDistant) {
-        half_m = c.widths.x * sqrt(max(1.0 - elevation * elevation, 0.0));
+        extent.half_m = c.widths.x * sqrt(max(1.0 - elevation * elevation, 0.0));
     } else if (c.settings.x == shapeSphere) {
-        half_m = c.widths.x;
+        extent.half_m = c.widths.x;
     } else {
         vec3 normalFace = mat3(c.camera.faceFromLight) * normal;
-        float x = abs(dot(c.halfX.xyz, normalFace)), y = abs(dot(c.halfY.xyz, normalFace));
-        half_m = c.settings.x == shapeDisk ? length(vec2(x, y)) : x + y;
-        spread = min(x, y) / max(x + y, 1e-30);
+        float x = dot(c.halfX.xyz, normalFace), y = dot(c.halfY.xyz, normalFace);
+        extent = c.settings.x == shapeDisk ? LightExtent(length(vec2(x, y)), 0.0, vec2(0.0)) : rectExtent(x, y);
     }
-    bool whole = abs(elevation) >= half_m;  // a light of no size, too
-    return Horizon(whole ? (elevation > 0.0 ? 1.0 : -1.0) : elevation / half_m, spread);
+    bool whole = abs(elevation) >= extent.half_m;  // a light of no size, too
+    return Horizon(whole ? (elevation > 0.0 ? 1.0 : -1.0) : elevation / extent.half_m, extent);
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
 // Chan and Durand 2003, section 3, step 5, in the tiles that smoothies reach. Alpha and equation 1 are worked out here, for
-// the pixel's own receiver and the edges that were found to be deepest.
+// the pixel's own receiver and the edges that were found to be deepest. Variants: COLORED, for textured lights.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/smoothies/lookup.glsl"
+#include "src/techniques/smoothies/light_profile.glsl"
 #include "src/techniques/smoothies/smoothie_edges_io.h"
 #include "src/techniques/smoothies/tiles.glsl"
 
@@ -17,13 +18,13 @@ const float leastPart = 0.004;
 
 // What comes past one silhouette edge.
 struct PastEdge {
-    float seen;
+    Seen seen;
     vec2 outward;  // away from the blocker, unit length; zero where there is no edge
 };
 
 PastEdge pastEdge(Lookup l, ivec2 texel, int layer) {
     bool inner = layer != layerOuter;
-    PastEdge nothing = PastEdge(inner ? 0.0 : 1.0, vec2(0.0));
+    PastEdge nothing = PastEdge(Seen(inner ? 0.0 : 1.0), vec2(0.0));
     uint number = edgeAt(l, texel, layer);
     if (number == noEdge) return nothing;
     SmoothieEdge edge = smoothieEdges[uint(l.camera) * capacity + number];
@@ -48,29 +49,29 @@ PastEdge pastEdge(Lookup l, ivec2 texel, int layer) {
     LightExtent extent = lightExtent(l.camera, place, outward);
     float width = smoothieWidth(l.camera, extent.half_m, blocker, receiver);
     float x = towards * distance_ / width;
-    if (x <= -1.0) return PastEdge(0.0, outward);
+    if (x <= -1.0) return PastEdge(Seen(0.0), outward);
     // With the inner half, the outer one spans the outer half of the penumbra; alone, it stands for all of it.
-    if (smoothies[l.camera].settings.w == 0) return PastEdge(falloff(l.camera, 2.0 * max(x, 0.0) - 1.0, extent.spread), outward);
+    if (smoothies[l.camera].settings.w == 0) return PastEdge(falloff(l.camera, extent, 2.0 * max(x, 0.0) - 1.0), outward);
     if (inner) {
         // The receiver's plane must be lit just beyond the edge, or else something under the blocker covers it too.
         ivec2 beyond = texelOf(l.camera, closest + beyondTexels * windowTexel * outward, textureSize(depthMaps, 0).x);
         if (isBehindBlocker(l, beyond, 2.0 * (distance_ / windowTexel + 2.0) * l.point.texel_m)) return nothing;
     }
-    return PastEdge(falloff(l.camera, x, extent.spread), outward);
+    return PastEdge(falloff(l.camera, extent, x), outward);
 }
 
 // The part of the light that comes past both of two edges: none where they face away from each other, the lesser where
 // they face the same way, and the product at a right angle, which is exact for a rect whose sides they are parallel to.
-float pastBoth(PastEdge a, PastEdge b) {
+Seen pastBoth(PastEdge a, PastEdge b) {
     float cosine = dot(a.outward, b.outward);
-    float product = a.seen * b.seen;
+    Seen product = a.seen * b.seen;
     return cosine < 0.0 ? mix(product, max(a.seen + b.seen - 1.0, 0.0), -cosine)
                         : mix(product, min(a.seen, b.seen), cosine);
 }
 
-float visibilityAt(Receiver receiver) {
+Seen visibilityAt(Receiver receiver) {
     Lookup l;
-    if (!findCamera(receiver, l)) return 1.0;
+    if (!findCamera(receiver, l)) return Seen(1.0);
     Neighbours n = neighboursOf(l);
     PastEdge near = pastEdge(l, n.litTexel, layerOuter);
     if (smoothies[l.camera].settings.w == 0) return (1.0 - n.behind) * near.seen;
@@ -78,7 +79,7 @@ float visibilityAt(Receiver receiver) {
     // What a receiver sees that does not see the light's centre; and one that does, past the far side of a thin blocker.
     ivec2 texel = n.behind > 0.0 ? n.behindTexel : n.litTexel;
     PastEdge inner[innerLayers];
-    float opposite = 0.0, behind = 0.0, most = 0.0;
+    Seen opposite = Seen(0.0), behind = Seen(0.0), most = Seen(0.0);
     for (int i = 0; i < innerLayers; ++i) {
         inner[i] = pastEdge(l, texel, firstInnerLayer + i);
         if (dot(near.outward, inner[i].outward) < -0.5) opposite = max(opposite, inner[i].seen);
@@ -86,7 +87,7 @@ float visibilityAt(Receiver receiver) {
         most = max(most, inner[i].seen);
     }
     for (int i = 0; i < innerLayers; ++i) behind -= pastBoth(inner[i], inner[(i + 1) % innerLayers]);
-    return mix(min(near.seen + opposite, 1.0), clamp(behind, most, 1.0), n.behind);
+    return mix(min(near.seen + opposite, 1.0), clamp(behind, most, Seen(1.0)), n.behind);
 }
 
 void main() {
@@ -95,13 +96,17 @@ void main() {
     ivec2 pixel = tileSize_px * ivec2(tiles[index] & 0xffffu, tiles[index] >> 16) + ivec2(gl_LocalInvocationID.xy);
     if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
     Receiver receiver;
-    float seen = 1.0;
+    Seen seen = Seen(1.0);
     if (loadReceiver(pixel, receiver)) {
         // Edges tell the part of the whole light that is seen. A surface's own horizon is an edge like others, which is
         // why smoothies darken the terminator; asked for is the part of what is above that horizon.
         Horizon horizon = horizonOf(receiver);
-        float above = lightVisible(0, horizon.height, horizon.spread);
-        seen = above > leastPart ? min(visibilityAt(receiver) / above, 1.0) : 0.0;
+        Seen above = horizon.height < 1.0 ? partBeside(0, horizon.extent, horizon.height) : Seen(1.0);
+        seen = step(leastPart, above) * min(visibilityAt(receiver) / max(above, leastPart), 1.0);
     }
+#ifdef COLORED
+    imageStore(visibility, pixel, vec4(seen, 1.0));
+#else
     imageStore(visibility, pixel, vec4(seen));
+#endif
 }

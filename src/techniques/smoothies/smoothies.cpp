@@ -63,6 +63,8 @@ Smoothies::Smoothies(Device& device)
                                   "src/techniques/smoothies/smoothie.frag.glsl"}),
       classify_(device_.shaders, {"src/techniques/smoothies/classify.comp.glsl"}),
       resolve_(device_.shaders, {"src/techniques/smoothies/resolve.comp.glsl"}),
+      resolveColored_(device_.shaders, {"src/techniques/smoothies/resolve.comp.glsl"}, {"COLORED"}),
+      lightProfileProgram_(device_.shaders, {"src/techniques/smoothies/light_profile.comp.glsl"}),
       edgesAsVertices_(gl::makeFloatVertexArray(4, 4, 4)),
       constants_("smoothie constants") {}
 
@@ -270,13 +272,34 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
                         GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
     }
     if (!hasSmoothies_) return;
+    const bool colored = light.radianceTexture != 0;
+    if (colored) {
+        const auto pass = timers_.pass("smoothies/light profile");
+        profileLight(light.radianceTexture);
+    }
     const auto pass = timers_.pass("smoothies/resolve");
-    useForPicture(resolve_);
+    useForPicture(colored ? resolveColored_ : resolve_);
+    if (colored) lightProfile_.bind(5);
     glUniform1ui(3, GLuint(silhouettes_.edgeCount()));
     bindStorage(2, smoothieEdges_);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, tiles_.name());
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void Smoothies::profileLight(GLuint radianceTexture) {
+    if (lightProfile_.name() == 0) {
+        lightProfile_ = gl::Texture({.width_px = profileDirections + 1,
+                                     .height_px = profileOffsets,
+                                     .format = GL_RGBA32F,
+                                     .filter = GL_LINEAR,
+                                     .label = "smoothies/light profile"});
+    }
+    lightProfileProgram_.use();
+    glBindTextureUnit(5, radianceTexture);
+    lightProfile_.bindImage(1, GL_WRITE_ONLY);
+    glDispatchCompute(profileDirections + 1, 1, 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 std::vector<SilhouetteSource> Smoothies::silhouetteSources(const ShadowInputs& inputs,

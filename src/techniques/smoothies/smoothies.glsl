@@ -43,24 +43,29 @@ vec2 placeOfTexel(int camera, ivec2 texel, int size_px) {
     return placeOf(camera, (vec2(texel) + 0.5) / float(size_px));
 }
 
-// The light's extent along a direction in the window, and how it is spread: for a rect the part (of both halves) along
-// its shorter-looking axis, 0 where it is seen edge on and 1/2 where both count alike.
+// The light's extent along a direction in the window, and how it is spread.
 struct LightExtent {
     float half_m;
-    float spread;
+    float spread;  // of a rect the part (of both halves) along its shorter-looking axis: 0 seen edge on, 1/2 both alike
+    vec2 along;    // of a rect its axes' shares, with signs
 };
+
+LightExtent rectExtent(float x, float y) {
+    float sum = abs(x) + abs(y);
+    return LightExtent(sum, min(abs(x), abs(y)) / max(sum, 1e-30), vec2(x, y) / max(sum, 1e-30));
+}
 
 LightExtent lightExtent(int camera, vec2 place, vec2 normal) {
     SmoothieConstants c = smoothies[camera];
-    if (c.settings.x == shapeDistant) return LightExtent(c.widths.x, 0.0);
+    if (c.settings.x == shapeDistant) return LightExtent(c.widths.x, 0.0, vec2(0.0));
     if (c.settings.x == shapeSphere) {
         float along = dot(place, normal);
-        return LightExtent(c.widths.x * sqrt(1.0 + along * along), 0.0);
+        return LightExtent(c.widths.x * sqrt(1.0 + along * along), 0.0, vec2(0.0));
     }
-    float x = abs(dot(c.halfX.xy - c.halfX.z * place, normal));
-    float y = abs(dot(c.halfY.xy - c.halfY.z * place, normal));
-    if (c.settings.x == shapeDisk) return LightExtent(length(vec2(x, y)), 0.0);
-    return LightExtent(x + y, min(x, y) / max(x + y, 1e-30));
+    float x = dot(c.halfX.xy - c.halfX.z * place, normal);
+    float y = dot(c.halfY.xy - c.halfY.z * place, normal);
+    if (c.settings.x == shapeDisk) return LightExtent(length(vec2(x, y)), 0.0, vec2(0.0));
+    return rectExtent(x, y);
 }
 
 // Half the penumbra's width in the window; never less than a texel, below which a map cannot show it.
@@ -93,13 +98,4 @@ float diskVisible(float x) {
 float lightVisible(int camera, float x, float spread) {
     x = clamp(x, -1.0, 1.0);
     return smoothies[camera].settings.x == shapeRect ? rectVisible(x, spread) : diskVisible(x);
-}
-
-// Visibility at x in [-1, 1] from the penumbra's inner to its outer border; x = 0 is the edge as the centre sees it.
-float falloff(int camera, float x, float spread) {
-    SmoothieConstants c = smoothies[camera];
-    x = clamp(x, -1.0, 1.0);
-    if (c.settings.y == falloffLinear) return 0.5 + 0.5 * x;
-    if (c.settings.y == falloffSinusoidal) return clamp(0.5 + 0.5 * sin(1.57079633 * x), 0.0, 1.0);
-    return lightVisible(camera, x, spread);
 }

@@ -37,6 +37,7 @@ class Smoothies final : public Technique {
     void buildSmoothies(bool distant);
     void bindSurfaces() const;
     void drawSmoothies();
+    void profileLight(GLuint radianceTexture);
 
     int mapSize_px_ = 1024;
     float t_ = 0;
@@ -48,10 +49,11 @@ class Smoothies final : public Technique {
     DepthMap depthMap_, receiverMap_;
     bool hasReceiverMap_ = false;
     SilhouetteExtractor silhouettes_;
-    gl::Program farthest_, build_, clearNormals_, addNormals_, smoothie_, classify_, resolve_;
+    gl::Program farthest_, build_, clearNormals_, addNormals_, smoothie_, classify_, resolve_,
+        resolveColored_, lightProfileProgram_;
     gl::Buffer farthestTiles_, vertexNormals_, smoothieEdges_, tiles_;
     gl::VertexArrayHandle edgesAsVertices_;
-    gl::Texture deepest_, order_;
+    gl::Texture deepest_, order_, lightProfile_;
     gl::Framebuffer framebuffer_;
     gl::ConstantBuffer<std::array<SmoothieConstants, maxSmoothieCameras>> constants_;
     ViewBinding view_;

@@ -15,6 +15,10 @@ const int smoothieTexel_px = 2;    // of the depth map, along each axis
 const int tileSize_px = 8;         // of the picture, for the pixels that smoothies reach
 const int tilesPerRow = 1024;      // of the list of those tiles, as it is dispatched
 
+// The profile of a textured light (light_profile.glsl), its first column repeated as its last.
+const int profileDirections = 64;
+const int profileOffsets = 64;
+
 struct SmoothieConstants {
     LightCameraConstants camera;
     vec4 halfX;      // xyz: the light's half axis along its width or radius, in face space, metres
