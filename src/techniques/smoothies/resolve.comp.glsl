@@ -35,13 +35,22 @@ PastEdge pastEdge(Lookup l, ivec2 texel, int layer) {
     vec2 closest = edge.ends.xy + s * along;
     float blocker = mix(edge.nearness.x, edge.nearness.y, s);
     float receiver = nearnessOf(l.camera, l.point.posFace.z);
-    if (nearnessOf(l.camera, l.point.posFace.z - l.tolerance_m) >= blocker) return nothing;
-
-    // The texel tells on which side of the edge it lies, and the receiver may lie on the other.
-    float windowTexel = smoothies[l.camera].camera.depth.w;
-    vec2 side = normalize(vec2(along.y, -along.x));
     vec2 offset = place - closest;
     float distance_ = length(offset);
+    float windowTexel = smoothies[l.camera].camera.depth.w;
+
+    // An edge shades what lies beyond it. What sees the light's centre must also have the edge above its plane, by more
+    // than the tolerance: a surface lies under none of its own edges. What does not see it lies behind something anyway.
+    float farthest_m = 2.0 * (distance_ / windowTexel + 2.0) * l.point.texel_m;
+    if (receiver >= blocker) return nothing;
+    if (!inner) {
+        float plane_m = receiverPlaneDepth_m(l.camera, l.point, l.normalFace, uvOf(l.camera, closest), farthest_m);
+        float nearest_m = min(plane_m, l.point.posFace.z) - l.tolerance_m;
+        if (nearnessOf(l.camera, nearest_m) >= blocker) return nothing;
+    }
+
+    // The texel tells on which side of the edge it lies, and the receiver may lie on the other.
+    vec2 side = normalize(vec2(along.y, -along.x));
     float towards = inner ? -1.0 : 1.0;
     if (towards * dot(offset, side) < 0.0 && distance_ < 1.5 * smoothieTexel_px * windowTexel) towards = -towards;
     vec2 outward = distance_ > 1e-3 * windowTexel ? towards * offset / distance_ : side;
@@ -55,7 +64,7 @@ PastEdge pastEdge(Lookup l, ivec2 texel, int layer) {
     if (inner) {
         // The receiver's plane must be lit just beyond the edge, or else something under the blocker covers it too.
         ivec2 beyond = texelOf(l.camera, closest + beyondTexels * windowTexel * outward, textureSize(depthMaps, 0).x);
-        if (isBehindBlocker(l, beyond, 2.0 * (distance_ / windowTexel + 2.0) * l.point.texel_m)) return nothing;
+        if (isBehindBlocker(l, beyond, farthest_m)) return nothing;
     }
     return PastEdge(falloff(l.camera, extent, x), outward);
 }

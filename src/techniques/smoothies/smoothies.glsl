@@ -34,13 +34,13 @@ vec2 placeOf(int camera, vec2 uv) {
     return uv / window.zw + window.xy;
 }
 
-ivec2 texelOf(int camera, vec2 place, int size_px) {
+vec2 uvOf(int camera, vec2 place) {
     vec4 window = smoothies[camera].camera.window;
-    return clamp(ivec2(floor((place - window.xy) * window.zw * float(size_px))), ivec2(0), ivec2(size_px - 1));
+    return (place - window.xy) * window.zw;
 }
 
-vec2 placeOfTexel(int camera, ivec2 texel, int size_px) {
-    return placeOf(camera, (vec2(texel) + 0.5) / float(size_px));
+ivec2 texelOf(int camera, vec2 place, int size_px) {
+    return clamp(ivec2(floor(uvOf(camera, place) * float(size_px))), ivec2(0), ivec2(size_px - 1));
 }
 
 // The light's extent along a direction in the window, and how it is spread.
