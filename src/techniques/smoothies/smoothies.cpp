@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "src/gl/raster_state.h"
@@ -36,6 +37,11 @@ bool hasSize(const AreaLight& light) {
     }
 }
 
+/// Blocks light with holes in it.
+bool isMasked(const Caster& caster) {
+    return caster.casts && caster.alphaMask.texture != 0;
+}
+
 /// How far away, along the camera's axis, the receivers reach.
 double farthestReceiver_m(const LightCamera& camera, const LightSpaceScene& scene) {
     double farthest_m = 0;
@@ -52,6 +58,7 @@ double farthestReceiver_m(const LightCamera& camera, const LightSpaceScene& scen
 Smoothies::Smoothies(Device& device)
     : device_(device.internals()),
       depthMap_(device),
+      maskedMap_(device),
       receiverMap_(device),
       silhouettes_(device),
       farthest_(device_.shaders, {"src/techniques/smoothies/farthest.comp.glsl"}),
@@ -64,6 +71,8 @@ Smoothies::Smoothies(Device& device)
       classify_(device_.shaders, {"src/techniques/smoothies/classify.comp.glsl"}),
       resolve_(device_.shaders, {"src/techniques/smoothies/resolve.comp.glsl"}),
       resolveColored_(device_.shaders, {"src/techniques/smoothies/resolve.comp.glsl"}, {"COLORED"}),
+      masked_(device_.shaders, {"src/techniques/smoothies/masked.comp.glsl"}),
+      maskedColored_(device_.shaders, {"src/techniques/smoothies/masked.comp.glsl"}, {"COLORED"}),
       lightProfileProgram_(device_.shaders, {"src/techniques/smoothies/light_profile.comp.glsl"}),
       edgesAsVertices_(gl::makeFloatVertexArray(4, 4, 4)),
       constants_("smoothie constants") {}
@@ -204,6 +213,41 @@ void Smoothies::drawSmoothies() {
     }
 }
 
+void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene,
+                         const std::vector<LightCamera>& cameras) {
+    const auto casting = [&](auto&& which) {
+        std::vector<Caster> casters(inputs.casters.begin(), inputs.casters.end());
+        for (Caster& caster : casters) caster.casts = which(caster);
+        return casters;
+    };
+    hasMaskedMap_ = hasSmoothies_ && std::ranges::any_of(inputs.casters, isMasked);
+    {
+        const auto pass = timers_.pass("smoothies/depth map");
+        depthMap_.render(casting([&](const Caster& caster) {
+                             return caster.casts && !(hasMaskedMap_ && isMasked(caster));
+                         }),
+                         scene, cameras, mapSize_px_);
+    }
+    if (hasMaskedMap_) {
+        const auto pass = timers_.pass("smoothies/masked map");
+        maskedMap_.render(casting(isMasked), scene, cameras, mapSize_px_);
+        if (!saidMasked_) {
+            device_.log.write(LogLevel::info,
+                              "smoothies: casters with an alpha mask have no silhouette edges; their shadows "
+                              "are filtered from a map of their own");
+            saidMasked_ = true;
+        }
+    }
+    // What receives but is not in the depth map is drawn by itself: smoothies need to know how far away it is.
+    const std::vector<Caster> receivers = casting(
+        [](const Caster& caster) { return caster.receives && (!caster.casts || isMasked(caster)); });
+    hasReceiverMap_ = hasSmoothies_ && std::ranges::any_of(receivers, &Caster::casts);
+    if (hasReceiverMap_) {
+        const auto pass = timers_.pass("smoothies/receiver map");
+        receiverMap_.render(receivers, scene, cameras, std::max(1, mapSize_px_ / receiverTexel_px));
+    }
+}
+
 void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     checkInputs(inputs, out);
     const AreaLight& light = inputs.light;
@@ -211,32 +255,23 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
     const std::vector<LightCamera> cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px_});
-    {
-        const auto pass = timers_.pass("smoothies/depth map");
-        depthMap_.render(inputs.casters, scene, cameras, mapSize_px_);
-    }
+    hasSmoothies_ = hasSize(light) && !cameras.empty();
+    drawMaps(inputs, scene, cameras);
 
     std::array<SmoothieConstants, maxSmoothieCameras> constants{};
     for (std::size_t i = 0; i < cameras.size(); ++i) constants[i] = constantsOf(light, cameras[i], scene);
     constants_.write(constants);
     constants_.bindUniform(1);
-
-    hasSmoothies_ = hasSize(light) && !cameras.empty();
     if (hasSmoothies_) {
         allocate(layersPerCamera * int(cameras.size()));
-        // What receives but does not cast is drawn by itself: smoothies need to know how far away it is.
-        std::vector<Caster> receivers(inputs.casters.begin(), inputs.casters.end());
-        for (Caster& caster : receivers) caster.casts = !caster.casts && caster.receives;
-        hasReceiverMap_ = std::ranges::any_of(receivers, &Caster::casts);
-        if (hasReceiverMap_) {
-            const auto pass = timers_.pass("smoothies/receiver map");
-            receiverMap_.render(receivers, scene, cameras, std::max(1, mapSize_px_ / receiverTexel_px));
-        }
         {
             const auto pass = timers_.pass("smoothies/silhouettes");
-            silhouettes_.extract(silhouetteSources(inputs, scene),
-                                 distant ? LightPoint(0, 0, 1, 0) : LightPoint(0, 0, 0, 1),
-                                 {});
+            std::vector<SilhouetteSource> sources;
+            for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
+                const Caster& caster = inputs.casters[i];
+                if (caster.casts && !isMasked(caster)) sources.push_back({caster.mesh, scene.lightFromMesh[i]});
+            }
+            silhouettes_.extract(sources, distant ? LightPoint(0, 0, 1, 0) : LightPoint(0, 0, 0, 1), {});
         }
         {
             const auto pass = timers_.pass("smoothies/construction");
@@ -246,40 +281,41 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
             const auto pass = timers_.pass("smoothies/smoothies");
             drawSmoothies();
         }
+        if (light.radianceTexture != 0) profileLight(light.radianceTexture);
     }
-
     view_.bind(inputs.view, lightFromWorldMatrix);
-    depthMap_.bind(3, 0);
-    deepest_.bind(4);
-    bindVisibility(out, 0);
-    const auto useForPicture = [&](const gl::Program& program) {
-        program.use();
-        glUniform1i(0, depthMap_.count());
-        glUniform1i(1, distant);
-        glUniform1i(2, isOneSided(light));
-    };
+    resolve(light, out);
+    if (hasMaskedMap_) resolveMasked(inputs, scene, cameras, out);
+}
+
+void Smoothies::useForPicture(const gl::Program& program, const AreaLight& light) const {
+    program.use();
+    glUniform1i(0, depthMap_.count());
+    glUniform1i(1, light.shape == LightShape::distant);
+    glUniform1i(2, isOneSided(light));
+}
+
+void Smoothies::resolve(const AreaLight& light, const VisibilityBuffer& out) {
     const auto tilesOf = [](int size_px) { return std::size_t((size_px + tileSize_px - 1) / tileSize_px); };
     reserve(tiles_, 4 * (4 + tilesOf(out.width_px()) * tilesOf(out.height_px())), "smoothies/tiles");
     constexpr std::array<GLuint, 4> noTiles = {0, 0, 1, 0};
     tiles_.write(std::as_bytes(std::span(noTiles)));
     bindStorage(3, tiles_);
+    depthMap_.bind(3, 0);
+    deepest_.bind(4);
+    bindVisibility(out, 0);
     {
         const auto pass = timers_.pass("smoothies/classify");
-        useForPicture(classify_);
+        useForPicture(classify_, light);
         glUniform1i(3, hasSmoothies_);
         gl::dispatchPixels(out.width_px(), out.height_px());
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
                         GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
     }
     if (!hasSmoothies_) return;
-    const bool colored = light.radianceTexture != 0;
-    if (colored) {
-        const auto pass = timers_.pass("smoothies/light profile");
-        profileLight(light.radianceTexture);
-    }
     const auto pass = timers_.pass("smoothies/resolve");
-    useForPicture(colored ? resolveColored_ : resolve_);
-    if (colored) lightProfile_.bind(5);
+    useForPicture(out.colored() ? resolveColored_ : resolve_, light);
+    if (out.colored()) lightProfile_.bind(5);
     glUniform1ui(3, GLuint(silhouettes_.edgeCount()));
     bindStorage(2, smoothieEdges_);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, tiles_.name());
@@ -287,7 +323,33 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
+void Smoothies::resolveMasked(const ShadowInputs& inputs, const LightSpaceScene& scene,
+                              const std::vector<LightCamera>& cameras, const VisibilityBuffer& out) {
+    // The search for blockers is as wide as the nearest of them could make a penumbra.
+    float nearestNearness = -std::numeric_limits<float>::infinity();
+    for (const LightCamera& camera : cameras) {
+        const float nearest = constantsOf(inputs.light, camera, scene).nearness.y;
+        for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
+            if (!isMasked(inputs.casters[i]) || std::isnan(scene.boxes[i][0].x)) continue;
+            for (const glm::dvec3& corner : scene.boxes[i]) {
+                const double z = (camera.faceFromLight * glm::dvec4(corner, 1)).z;
+                const double nearness = camera.orthographic ? -z : z > 0 ? 1 / z : nearest;
+                nearestNearness = std::max(nearestNearness, std::min(float(nearness), nearest));
+            }
+        }
+    }
+    const auto pass = timers_.pass("smoothies/masked");
+    useForPicture(out.colored() ? maskedColored_ : masked_, inputs.light);
+    glUniform1f(3, nearestNearness);
+    maskedMap_.bind(3, 0);
+    glBindImageTexture(0, out.texture(), 0, GL_FALSE, 0, GL_READ_WRITE,
+                       out.colored() ? GL_RGBA16F : GL_R32F);
+    gl::dispatchPixels(out.width_px(), out.height_px());
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
 void Smoothies::profileLight(GLuint radianceTexture) {
+    const auto pass = timers_.pass("smoothies/light profile");
     if (lightProfile_.name() == 0) {
         lightProfile_ = gl::Texture({.width_px = profileDirections + 1,
                                      .height_px = profileOffsets,
@@ -300,26 +362,6 @@ void Smoothies::profileLight(GLuint radianceTexture) {
     lightProfile_.bindImage(1, GL_WRITE_ONLY);
     glDispatchCompute(profileDirections + 1, 1, 1);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-}
-
-std::vector<SilhouetteSource> Smoothies::silhouetteSources(const ShadowInputs& inputs,
-                                                           const LightSpaceScene& scene) {
-    std::vector<SilhouetteSource> sources;
-    bool anyMasked = false;
-    for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
-        const Caster& caster = inputs.casters[i];
-        if (!caster.casts) continue;
-        const bool masked = caster.alphaMask.texture != 0;
-        anyMasked = anyMasked || masked;
-        if (!masked) sources.push_back({caster.mesh, scene.lightFromMesh[i]});
-    }
-    if (anyMasked && !saidMasked_) {
-        device_.log.write(LogLevel::info,
-                          "smoothies: casters with an alpha mask have no silhouette edges; their shadows get "
-                          "the map's 2x2 filter and no penumbra");
-        saidMasked_ = true;
-    }
-    return sources;
 }
 
 void Smoothies::inspect(InspectionVisitor& visitor) const {

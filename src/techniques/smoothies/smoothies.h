@@ -31,13 +31,17 @@ class Smoothies final : public Technique {
   private:
     SmoothieConstants constantsOf(const AreaLight& light, const LightCamera& camera,
                                   const LightSpaceScene& scene) const;
-    std::vector<SilhouetteSource> silhouetteSources(const ShadowInputs& inputs,
-                                                    const LightSpaceScene& scene);
+    void drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene,
+                  const std::vector<LightCamera>& cameras);
     void allocate(int layers);
     void buildSmoothies(bool distant);
     void bindSurfaces() const;
     void drawSmoothies();
     void profileLight(GLuint radianceTexture);
+    void useForPicture(const gl::Program& program, const AreaLight& light) const;
+    void resolve(const AreaLight& light, const VisibilityBuffer& out);
+    void resolveMasked(const ShadowInputs& inputs, const LightSpaceScene& scene,
+                       const std::vector<LightCamera>& cameras, const VisibilityBuffer& out);
 
     int mapSize_px_ = 1024;
     float t_ = 0;
@@ -46,11 +50,12 @@ class Smoothies final : public Technique {
     int falloff_ = 0;
 
     Device::Internals& device_;
-    DepthMap depthMap_, receiverMap_;
+    DepthMap depthMap_, maskedMap_, receiverMap_;
+    bool hasMaskedMap_ = false;
     bool hasReceiverMap_ = false;
     SilhouetteExtractor silhouettes_;
     gl::Program farthest_, build_, clearNormals_, addNormals_, smoothie_, classify_, resolve_,
-        resolveColored_, lightProfileProgram_;
+        resolveColored_, masked_, maskedColored_, lightProfileProgram_;
     gl::Buffer farthestTiles_, vertexNormals_, smoothieEdges_, tiles_;
     gl::VertexArrayHandle edgesAsVertices_;
     gl::Texture deepest_, order_, lightProfile_;
