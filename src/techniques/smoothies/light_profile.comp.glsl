@@ -15,11 +15,10 @@ const int taps = 8;          // across a cell
 shared vec3 cells[cellsAcross * cellsAcross];
 
 vec3 meanRadiance(ivec2 cell) {
-    ivec2 size = textureSize(radiance, 0);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < taps * taps; ++i) {
         vec2 uv = (vec2(cell) + (vec2(i % taps, i / taps) + 0.5) / float(taps)) / float(cellsAcross);
-        sum += max(texelFetch(radiance, clamp(ivec2(uv * vec2(size)), ivec2(0), size - 1), 0).rgb, 0.0);
+        sum += max(textureLod(radiance, uv, 0.0).rgb, 0.0);
     }
     return sum / float(taps * taps);
 }

@@ -58,18 +58,19 @@ Neighbours neighboursOf(Lookup l) {
     ivec2 base = ivec2(floor(place_px));
     vec2 f = place_px - vec2(base);
     Neighbours n = Neighbours(0.0, ivec2(0), ivec2(0));
-    vec2 most = vec2(-1.0);
+    vec2 most = vec2(-1.0), sums = vec2(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);
         vec2 weights = mix(1.0 - f, f, vec2(offset));
         float weight = weights.x * weights.y;
         ivec2 texel = clamp(base + offset, ivec2(0), ivec2(size_px - 1));
         bool behind = isBehindBlocker(l, texel, 64.0 * l.point.texel_m);
-        if (behind) n.behind += weight;
+        sums += behind ? vec2(weight, 0.0) : vec2(0.0, weight);
         if (behind && weight > most.x) n.behindTexel = texel;
         if (!behind && weight > most.y) n.litTexel = texel;
         most = behind ? vec2(max(most.x, weight), most.y) : vec2(most.x, max(most.y, weight));
     }
+    n.behind = sums.x / (sums.x + sums.y);  // exactly 1 where all are
     return n;
 }
 
