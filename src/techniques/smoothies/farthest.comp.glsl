@@ -33,7 +33,7 @@ void main() {
     for (int y = begin.y + 4 * int(gl_LocalInvocationID.y); y < end.y; y += 32) {
         for (int x = begin.x + 4 * int(gl_LocalInvocationID.x); x < end.x; x += 32) {
             ivec2 texel = ivec2(x, y);
-            nearness = min(nearness, max(blockerNearness(camera, texel), receiverNearness(camera, texel)));
+            nearness = min(nearness, max(blockerNearness(camera, camera, texel), receiverNearness(camera, camera, texel)));
         }
     }
     atomicMin(smallest, ordered(nearness));

@@ -9,7 +9,8 @@
 layout(points) in;
 layout(triangle_strip, max_vertices = 24) out;
 
-layout(location = 1) uniform int camera;
+layout(location = 1) uniform int drawnCamera;
+const int camera = 0;  // the block begins with the one that is drawn
 
 layout(location = 0) flat in vec4 edgeEnds[1];
 layout(location = 1) flat in vec4 edgeNormals[1];
@@ -42,7 +43,7 @@ void emit(End end, vec2 offset, vec2 normal, int layer) {
     closest = end.place;
     blocker = end.nearness;
     place = end.place + offset;
-    gl_Layer = layersPerCamera * camera + layer;
+    gl_Layer = layersPerCamera * drawnCamera + layer;
     gl_Position = vec4(2.0 * (place - window.xy) * window.zw - 1.0, 0.5, 1.0);
     EmitVertex();
 }

@@ -65,9 +65,9 @@ Smoothies::Smoothies(Device& device)
       build_(device_.shaders, {"src/techniques/smoothies/smoothie_edges.comp.glsl"}),
       clearNormals_(device_.shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"}, {"CLEAR"}),
       addNormals_(device_.shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"}),
-      smoothie_(device_.shaders, {"src/techniques/smoothies/smoothie.vert.glsl",
-                                  "src/techniques/smoothies/smoothie.geom.glsl",
-                                  "src/techniques/smoothies/smoothie.frag.glsl"}),
+      smoothie_(device_.shaders,
+                {"src/techniques/smoothies/smoothie.vert.glsl", "src/techniques/smoothies/smoothie.geom.glsl",
+                 "src/techniques/smoothies/smoothie.frag.glsl"}),
       classify_(device_.shaders, {"src/techniques/smoothies/classify.comp.glsl"}),
       resolve_(device_.shaders, {"src/techniques/smoothies/resolve.comp.glsl"}),
       resolveColored_(device_.shaders, {"src/techniques/smoothies/resolve.comp.glsl"}, {"COLORED"}),
@@ -75,7 +75,7 @@ Smoothies::Smoothies(Device& device)
       maskedColored_(device_.shaders, {"src/techniques/smoothies/masked.comp.glsl"}, {"COLORED"}),
       lightProfileProgram_(device_.shaders, {"src/techniques/smoothies/light_profile.comp.glsl"}),
       edgesAsVertices_(gl::makeFloatVertexArray(4, 4, 4)),
-      constants_("smoothie constants") {}
+      constants_(2 * maxSmoothieCameras * sizeof(SmoothieConstants), "smoothie constants") {}
 
 void Smoothies::describe(ParameterVisitor& visitor) {
     visitor.integer({.name = "map_size",
@@ -127,11 +127,8 @@ void Smoothies::allocate(int layers) {
     const int size_px = std::max(1, mapSize_px_ / smoothieTexel_px);
     if (deepest_.width_px() == size_px && deepest_.layers() >= layers) return;
     const auto make = [&](GLenum format, std::string_view label) {
-        return gl::Texture({.width_px = size_px,
-                            .height_px = size_px,
-                            .layers = layers,
-                            .format = format,
-                            .label = label});
+        return gl::Texture(
+            {.width_px = size_px, .height_px = size_px, .layers = layers, .format = format, .label = label});
     };
     deepest_ = {};  // freed first, so that the old need not fit beside the new
     order_ = {};
@@ -181,6 +178,12 @@ void Smoothies::buildSmoothies(bool distant) {
     glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
 }
 
+void Smoothies::bindConstants(int firstCamera) const {
+    glBindBufferRange(GL_UNIFORM_BUFFER, 1, constants_.name(),
+                      GLintptr(std::size_t(firstCamera) * sizeof(SmoothieConstants)),
+                      GLsizeiptr(maxSmoothieCameras * sizeof(SmoothieConstants)));
+}
+
 void Smoothies::bindSurfaces() const {
     depthMap_.texture().bind(0);
     if (hasReceiverMap_) receiverMap_.texture().bind(1);
@@ -209,8 +212,10 @@ void Smoothies::drawSmoothies() {
                                       sizeof(SmoothieEdge));
         }
         glUniform1i(1, camera);
+        bindConstants(camera);
         glDrawArraysIndirect(GL_POINTS, nullptr);
     }
+    bindConstants(0);
 }
 
 void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene,
@@ -238,9 +243,10 @@ void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scen
             saidMasked_ = true;
         }
     }
-    // What receives but is not in the depth map is drawn by itself: smoothies need to know how far away it is.
-    const std::vector<Caster> receivers = casting(
-        [](const Caster& caster) { return caster.receives && (!caster.casts || isMasked(caster)); });
+    // What receives but is not in the depth map is drawn by itself: smoothies need to know how far away it
+    // is.
+    const std::vector<Caster> receivers =
+        casting([](const Caster& caster) { return caster.receives && (!caster.casts || isMasked(caster)); });
     hasReceiverMap_ = hasSmoothies_ && std::ranges::any_of(receivers, &Caster::casts);
     if (hasReceiverMap_) {
         const auto pass = timers_.pass("smoothies/receiver map");
@@ -260,8 +266,8 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
 
     std::array<SmoothieConstants, maxSmoothieCameras> constants{};
     for (std::size_t i = 0; i < cameras.size(); ++i) constants[i] = constantsOf(light, cameras[i], scene);
-    constants_.write(constants);
-    constants_.bindUniform(1);
+    constants_.write(std::as_bytes(std::span(constants)));
+    bindConstants(0);
     if (hasSmoothies_) {
         allocate(layersPerCamera * int(cameras.size()));
         {
@@ -269,7 +275,8 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
             std::vector<SilhouetteSource> sources;
             for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
                 const Caster& caster = inputs.casters[i];
-                if (caster.casts && !isMasked(caster)) sources.push_back({caster.mesh, scene.lightFromMesh[i]});
+                if (caster.casts && !isMasked(caster))
+                    sources.push_back({caster.mesh, scene.lightFromMesh[i]});
             }
             silhouettes_.extract(sources, distant ? LightPoint(0, 0, 1, 0) : LightPoint(0, 0, 0, 1), {});
         }
@@ -342,8 +349,7 @@ void Smoothies::resolveMasked(const ShadowInputs& inputs, const LightSpaceScene&
     useForPicture(out.colored() ? maskedColored_ : masked_, inputs.light);
     glUniform1f(3, nearestNearness);
     maskedMap_.bind(3, 0);
-    glBindImageTexture(0, out.texture(), 0, GL_FALSE, 0, GL_READ_WRITE,
-                       out.colored() ? GL_RGBA16F : GL_R32F);
+    glBindImageTexture(0, out.texture(), 0, GL_FALSE, 0, GL_READ_WRITE, out.colored() ? GL_RGBA16F : GL_R32F);
     gl::dispatchPixels(out.width_px(), out.height_px());
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }

@@ -35,6 +35,7 @@ class Smoothies final : public Technique {
                   const std::vector<LightCamera>& cameras);
     void allocate(int layers);
     void buildSmoothies(bool distant);
+    void bindConstants(int firstCamera) const;
     void bindSurfaces() const;
     void drawSmoothies();
     void profileLight(GLuint radianceTexture);
@@ -60,7 +61,7 @@ class Smoothies final : public Technique {
     gl::VertexArrayHandle edgesAsVertices_;
     gl::Texture deepest_, order_, lightProfile_;
     gl::Framebuffer framebuffer_;
-    gl::ConstantBuffer<std::array<SmoothieConstants, maxSmoothieCameras>> constants_;
+    gl::Buffer constants_;  ///< of the cameras, and as many again, so that a block may begin with any
     ViewBinding view_;
     gl::PassTimers timers_;
     bool hasSmoothies_ = false;

@@ -51,12 +51,14 @@ const Triangles level = sheet({-3, 2, -6}, {-3, 2, 6}, {0, 2, 6}, {0, 2, -6});
 // Half of what the technique promises for curved blockers: edges are straight here.
 constexpr double straightEdges = 0.03;
 
-/// The border runs past the light's plane, beside the light, which puts one end infinitely far away in the window.
+/// The border runs past the light's plane, beside the light, which puts one end infinitely far away in the
+/// window.
 TEST_F(SmoothiesInputTest, EdgesMayReachBehindTheLight) {
     expectNearTheTruth(sheet({-3, 2, -6}, {-3, 2, 6}, {0, 2, 6}, {0, 2, -6}), straightEdges);
     expectNearTheTruth(sheet({-3, 1, -9}, {-3, 9, 9}, {-0.3f, 9, 9}, {-0.3f, 1, -9}), straightEdges);
     // A wall beside the light, from below its plane to above.
-    expectNearTheTruth(sheet({-0.9f, 1.6f, -6}, {-0.9f, 1.6f, 6}, {-0.9f, 9, 6}, {-0.9f, 9, -6}), straightEdges);
+    expectNearTheTruth(sheet({-0.9f, 1.6f, -6}, {-0.9f, 1.6f, 6}, {-0.9f, 9, 6}, {-0.9f, 9, -6}),
+                       straightEdges);
 }
 
 TEST_F(SmoothiesInputTest, BlockersBehindTheLightDoNothing) {
@@ -89,15 +91,15 @@ TEST_F(SmoothiesInputTest, EdgesMayPointAtTheLight) {
 TEST_F(SmoothiesInputTest, LightInsideAClosedBlockerShinesNowhereElse) {
     const float l = -0.7f, h = 0.7f;
     Triangles box{{{l, l, l}, {h, l, l}, {l, h, l}, {h, h, l}, {l, l, h}, {h, l, h}, {l, h, h}, {h, h, h}},
-                  {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1,
-                   3, 5, 3, 7, 5}};
+                  {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                   2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5}};
     for (glm::vec3& p : box.positions) p.y += 4;
     const LightResult result = render("smoothies", blockedBy(box));
     EXPECT_EQ(std::ranges::max(result.visibility.values), 0);
 }
 
-/// A single triangle, the same twice, a third face on an edge, corners that are not shared: all cast the shadow that
-/// they cast.
+/// A single triangle, the same twice, a third face on an edge, corners that are not shared: all cast the
+/// shadow that they cast.
 TEST_F(SmoothiesInputTest, BrokenTopologyCastsItsShadow) {
     Triangles single{{{-3, 2, -6}, {0, 2, 6}, {0, 2, -6}}, {0, 1, 2}};
     expectNearTheTruth(single, straightEdges);
@@ -157,7 +159,8 @@ TEST_F(SmoothiesInputTest, HolesOfAlphaMasksHavePenumbrae) {
     Scene scene = makeBuiltin("two-boxes");
     scene.pictures.push_back(
         {.name = "stripes", .width_px = 2, .height_px = 1, .rgba = {255, 255, 255, 255, 255, 255, 255, 0}});
-    scene.textures.push_back({.picture = int(scene.pictures.size()) - 1, .minFilter = 0x2600, .magFilter = 0x2600});
+    scene.textures.push_back(
+        {.picture = int(scene.pictures.size()) - 1, .minFilter = 0x2600, .magFilter = 0x2600});
     for (Mesh& mesh : scene.meshes) {
         mesh.uvs.clear();
         for (const glm::vec3& p : mesh.positions) mesh.uvs.emplace_back(p.x * 2, 0.5f);
@@ -167,7 +170,8 @@ TEST_F(SmoothiesInputTest, HolesOfAlphaMasksHavePenumbrae) {
         material.baseColorTexture = int(scene.textures.size()) - 1;
     }
     const LightResult exact = truth(scene);
-    // A hard shadow is off by 0.27; 48 taps show a penumbra in steps of 0.02, and a box has two layers of stripes.
+    // A hard shadow is off by 0.27; 48 taps show a penumbra in steps of 0.02, and a box has two layers of
+    // stripes.
     EXPECT_LE(judge(exact, render("smoothies", scene)).penumbra_rmse, 0.12);
     EXPECT_GE(judge(exact, render("hard", scene)).penumbra_rmse, 0.2);
 }

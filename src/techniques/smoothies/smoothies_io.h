@@ -27,10 +27,11 @@ struct SmoothieConstants {
                      // none; z: smallest width; w: largest. All but x in window units (tangents or metres)
     vec4 nearness;   // x: of the farthest receiver; y: of the nearest point that is drawn
     ivec4 settings;  // x: shape; y: falloff; z: 1 if alpha is remapped; w: 1 with the inner half
+    vec4 unused;     // so that a block may begin with any of them
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(SmoothieConstants) == 240);
+static_assert(sizeof(SmoothieConstants) == 256);
 }  // namespace penumbra
 #endif
 #endif

@@ -56,7 +56,8 @@ TEST_F(SmoothiesTest, InnerHalfMakesTheRampOfAHalfPlane) {
               rampTolerance);
 }
 
-/// In perspective and from below, the light's window is tilted against the edge, which runs past the light's plane.
+/// In perspective and from below, the light's window is tilted against the edge, which runs past the light's
+/// plane.
 TEST_F(SmoothiesTest, HalfPlaneIsRightFromBothCameras) {
     for (const Scene& scene : {makeBuiltin("half-plane"), fromAbove("half-plane")}) {
         EXPECT_LE(judge(truth(scene), render("smoothies", scene)).penumbra_rmse, rampTolerance);
@@ -179,8 +180,8 @@ TEST_F(SmoothiesTest, ASizeOfZeroIsTheHardShadow) {
               render("hard", scene, defaultSize, {{"map_size", "1024"}}).visibility.values);
 }
 
-/// Figure 7, along the edge: where V crosses 1/2 must not follow the texels. The edge lies askew to the map, and its
-/// penumbra spans 5 texels, the least that the figure shows.
+/// Figure 7, along the edge: where V crosses 1/2 must not follow the texels. The edge lies askew to the map,
+/// and its penumbra spans 5 texels, the least that the figure shows.
 TEST_F(SmoothiesTest, CoarseMapsDoNotMakeStairs) {
     constexpr double angle_rad = 0.3;
     const Scene scene = withMoment(fromAbove("half-plane"), [](SceneMoment& moment) {

@@ -7,13 +7,13 @@ layout(binding = 1) uniform sampler2DArray receiverMaps;
 layout(location = 0) uniform bool hasReceiverMaps;
 
 // The nearness of the closest blocker in a texel of the depth maps; where there is none, of the farthest receiver.
-float blockerNearness(int camera, ivec2 texel) {
-    return storedNearness(camera, texelFetch(depthMaps, ivec3(texel, camera), 0).r);
+float blockerNearness(int camera, int layer, ivec2 texel) {
+    return storedNearness(camera, texelFetch(depthMaps, ivec3(texel, layer), 0).r);
 }
 
 // The same of what only receives.
-float receiverNearness(int camera, ivec2 texel) {
+float receiverNearness(int camera, int layer, ivec2 texel) {
     if (!hasReceiverMaps) return smoothies[camera].nearness.x;
     ivec2 coarse = texel * textureSize(receiverMaps, 0).xy / textureSize(depthMaps, 0).xy;
-    return storedNearness(camera, texelFetch(receiverMaps, ivec3(coarse, camera), 0).r);
+    return storedNearness(camera, texelFetch(receiverMaps, ivec3(coarse, layer), 0).r);
 }
