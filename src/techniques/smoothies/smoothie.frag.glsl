@@ -38,7 +38,7 @@ void main() {
     float other = receiverNearness(camera, drawnCamera, surface);
     if (other < blocker) receiver = max(receiver, other);
 
-    // Across the edge (see `overlap`) it is better than none, no more.
+    // Across the edge (smoothie.geom.glsl, overlapTexels) it is better than none, no more.
     float width = smoothieWidth(camera, lightExtent(camera, place, normal).half_m, blocker, receiver);
     float alpha = across ? 1.0 : distance_ / width;
     if (!inner && alpha > 1.0) discard;

@@ -80,7 +80,7 @@ Smoothies::Smoothies(Device& device)
 void Smoothies::describe(ParameterVisitor& visitor) {
     visitor.integer({.name = "map_size",
                      .unit = "texels",
-                     .help = "width and height of the shadow map and the smoothie buffers"},
+                     .help = "width and height of the shadow map; smoothies are drawn at half of it"},
                     mapSize_px_, {16, 16384});
     visitor.boolean({.name = "inner",
                      .help = "smoothies reach into the blocker too, so that the umbra shrinks as the light "
