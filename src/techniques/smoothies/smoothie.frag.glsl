@@ -27,7 +27,7 @@ void main() {
     vec2 offset = towards * (place - closest);
     float distance_ = length(offset);
     vec2 normal = distance_ > 1e-3 * texel ? offset / distance_ : outward;
-    bool across = dot(offset, outward) < 0.0 && distance_ < smoothieTexel_px * texel;
+    bool across = dot(offset, outward) < 0.0 && distance_ < 1.5 * smoothieTexel_px * texel;
     if (across) normal = outward;
 
     // A blocker that hides the edge here (or, of the inner half, just beyond the edge) hides its penumbra.
@@ -38,9 +38,10 @@ void main() {
     float other = receiverNearness(camera, drawnCamera, surface);
     if (other < blocker) receiver = max(receiver, other);
 
-    // Across the edge (smoothie.geom.glsl, overlapTexels) it is better than none, no more.
+    // Across the edge (smoothie.geom.glsl, overlapTexels) it is better than none, no more, and the closest is the
+    // best of those.
     float width = smoothieWidth(camera, lightExtent(camera, place, normal).half_m, blocker, receiver);
-    float alpha = across ? 1.0 : distance_ / width;
+    float alpha = across ? 1.0 - 0.01 / (1.0 + distance_ / texel) : distance_ / width;
     if (!inner && alpha > 1.0) discard;
     deepestEdge = edgeNumber;
     gl_FragDepth = alpha / (1.0 + alpha);

@@ -25,8 +25,10 @@ layout(location = 4) out vec2 closest;   // the edge's point that is closest to 
 layout(location = 5) out float blocker;  // the nearness there
 
 // Smoothies are drawn coarser than the depth map: a texel that holds any place on this side of the edge may have its
-// centre beyond it.
+// centre beyond it, or beyond an end of it.
 const float overlapTexels = 0.75 * float(smoothieTexel_px);
+// How much of that lies past the ends: enough to close the gaps around vertices of finely divided silhouettes.
+const float pastEnds = 0.25;
 
 struct End {
     vec2 place;
@@ -77,8 +79,8 @@ void main() {
         End a = End(ends.xy, towards * normals.xy, nearnessAndWidths.x, nearnessAndWidths.z);
         End b = End(ends.zw, towards * normals.zw, nearnessAndWidths.y, nearnessAndWidths.w);
         // Nearness is linear along the edge, and the width in nearness.
-        emit(a, -overlap * side, normal, layer);
-        emit(b, -overlap * side, normal, layer);
+        emit(a, -overlap * (side + pastEnds * along), normal, layer);
+        emit(b, -overlap * (side - pastEnds * along), normal, layer);
         emit(a, a.width * side, normal, layer);
         emit(b, b.width * side, normal, layer);
         EndPrimitive();
