@@ -7,7 +7,7 @@
 #include "src/techniques/smoothies/smoothies.glsl"
 
 layout(points) in;
-layout(triangle_strip, max_vertices = 24) out;
+layout(triangle_strip, max_vertices = 28) out;
 
 layout(location = 1) uniform int drawnCamera;
 const int camera = 0;  // the block begins with the one that is drawn
@@ -81,6 +81,8 @@ void main() {
         // Nearness is linear along the edge, and the width in nearness.
         emit(a, -overlap * (side + pastEnds * along), normal, layer);
         emit(b, -overlap * (side - pastEnds * along), normal, layer);
+        emit(a, vec2(0.0), normal, layer);
+        emit(b, vec2(0.0), normal, layer);
         emit(a, a.width * side, normal, layer);
         emit(b, b.width * side, normal, layer);
         EndPrimitive();
