@@ -4,14 +4,10 @@
 // smoothies thereabouts can become.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#define DEPTH_MAP_UNIT 0
-#define DEPTH_MAP_BLOCK 0
-#define SMOOTHIE_BLOCK 1
 #include "src/techniques/smoothies/smoothies.glsl"
+#include "src/techniques/smoothies/surfaces.glsl"
 #include "src/techniques/smoothies/smoothie_edges_io.h"
 
-layout(binding = 1) uniform sampler2DArray receiverMaps;
-layout(location = 0) uniform bool hasReceiverMaps;
 layout(std430, binding = 2) writeonly buffer Tiles { float farthestNearness[]; };
 
 shared uint smallest;
@@ -36,9 +32,8 @@ void main() {
     float nearness = smoothies[camera].nearness.y;
     for (int y = begin.y + 4 * int(gl_LocalInvocationID.y); y < end.y; y += 32) {
         for (int x = begin.x + 4 * int(gl_LocalInvocationID.x); x < end.x; x += 32) {
-            float stored = texelFetch(depthMaps, ivec3(x, y, camera), 0).r;
-            if (hasReceiverMaps) stored = max(stored, texelFetch(receiverMaps, ivec3(x, y, camera), 0).r);
-            nearness = min(nearness, storedNearness(camera, stored));
+            ivec2 texel = ivec2(x, y);
+            nearness = min(nearness, max(blockerNearness(camera, camera, texel), receiverNearness(camera, camera, texel)));
         }
     }
     atomicMin(smallest, ordered(nearness));

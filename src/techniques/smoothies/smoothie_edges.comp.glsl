@@ -4,9 +4,6 @@
 // how wide it must be. The paper foresees vertex stages that read the shadow map to size the smoothies (section 3.1).
 layout(local_size_x = 64) in;
 
-#define DEPTH_MAP_UNIT 0
-#define DEPTH_MAP_BLOCK 0
-#define SMOOTHIE_BLOCK 1
 #include "src/techniques/smoothies/smoothies.glsl"
 #include "src/geometry/silhouettes_io.h"
 #include "src/techniques/smoothies/smoothie_edges_io.h"
@@ -28,16 +25,28 @@ bool clip(inout vec2 segment, float fa, float fb) {
     return segment.x < segment.y;
 }
 
-float largestWidth(int camera, vec2 place, float blocker, float receiver) {
-    // The two axes bound the extent in every direction.
-    float half_m = lightExtent(camera, place, vec2(1.0, 0.0)).half_m + lightExtent(camera, place, vec2(0.0, 1.0)).half_m;
-    return smoothieWidth(camera, half_m, blocker, receiver);
+// The widest that the smoothie of an edge can be at both ends, above a surface at nearness `receiver`. Between them it is
+// no wider than in proportion.
+vec2 largestWidths(int camera, vec2 placeA, vec2 placeB, vec2 blocker, float receiver) {
+    // The two axes bound the extent in every direction, and the ends bound it in between: it is convex in the place.
+    vec2 half_m;
+    for (int i = 0; i < 2; ++i) {
+        vec2 place = i == 0 ? placeA : placeB;
+        half_m[i] =
+            lightExtent(camera, place, vec2(1.0, 0.0)).half_m + lightExtent(camera, place, vec2(0.0, 1.0)).half_m;
+    }
+    float largest = max(half_m.x, half_m.y);
+    vec2 widths =
+        vec2(smoothieWidth(camera, largest, blocker.x, receiver), smoothieWidth(camera, largest, blocker.y, receiver));
+    // Widths are linear in nearness, which is linear along the edge, unless they are the paper's t or cut off.
+    float widest = max(widths.x, widths.y);
+    bool linear = smoothies[camera].widths.y == 0.0 && widest < smoothies[camera].widths.w;
+    return linear ? widths : vec2(widest);
 }
 
 // No wider at either end than the farthest surface within reach asks for. What lies hidden behind the blocker is taken to
 // be no farther than what shows around it.
 vec2 boundByReceivers(int camera, vec2 placeA, vec2 placeB, vec2 nearness, vec2 widths) {
-    vec4 window = lightCameras[camera].window;
     for (int i = 0; i < 2; ++i) {
         float reach = max(widths.x, widths.y);
         vec2 low = min(placeA, placeB) - reach, high = max(placeA, placeB) + reach;
@@ -50,8 +59,7 @@ vec2 boundByReceivers(int camera, vec2 placeA, vec2 placeB, vec2 nearness, vec2 
                 farthest = min(farthest, farthestNearness[(camera * tilesAcross + y) * tilesAcross + x]);
             }
         }
-        widths = min(widths, vec2(largestWidth(camera, placeA, nearness.x, farthest),
-                                  largestWidth(camera, placeB, nearness.y, farthest)));
+        widths = min(widths, largestWidths(camera, placeA, placeB, nearness, farthest));
     }
     return widths;
 }
@@ -60,7 +68,7 @@ vec2 boundByReceivers(int camera, vec2 placeA, vec2 placeB, vec2 nearness, vec2 
 // that they span with the light, all of which hold the ray through the vertex. Where edges cancel (the tip of a
 // needle), the corner is rounded by a quarter at each.
 vec2 vertexNormal(int camera, uint vertex, vec2 side) {
-    vec2 normal = (mat3(lightCameras[camera].faceFromLight) * vec3(vertexNormals[vertex].xyz)).xy;
+    vec2 normal = (mat3(smoothies[camera].camera.faceFromLight) * vec3(vertexNormals[vertex].xyz)).xy;
     float size = length(normal);
     // Fixed point leaves some 1e-5 of direction; a mean that points away from this edge would need more than a quarter.
     if (size < 1e-3 * vertexNormalScale) return vec2(0.0);
@@ -68,50 +76,65 @@ vec2 vertexNormal(int camera, uint vertex, vec2 side) {
     return dot(normal, side) > -0.5 ? normal : vec2(0.0);
 }
 
+// A place in the window, times what it is to be divided by.
+vec3 homogeneous(int camera, vec3 posFace) { return isOrthographic(camera) ? vec3(posFace.xy, 1.0) : posFace; }
+
+// Cuts off what lies farther than `reach` outside the window. False: all of it. Done before the division by depth, which
+// puts an end that is close to the light's plane so far away that nothing in the window keeps its precision.
+bool clipToWindow(int camera, float reach, inout vec3 a, inout vec3 b) {
+    vec4 window = smoothies[camera].camera.window;
+    vec2 low = window.xy - reach, high = window.xy + 1.0 / window.zw + reach;
+    vec3 ha = homogeneous(camera, a), hb = homogeneous(camera, b);
+    vec2 segment = vec2(0.0, 1.0);
+    for (int i = 0; i < 2; ++i) {
+        if (!clip(segment, ha[i] - low[i] * ha.z, hb[i] - low[i] * hb.z)) return false;
+        if (!clip(segment, high[i] * ha.z - ha[i], high[i] * hb.z - hb[i])) return false;
+    }
+    vec3 step3 = b - a;
+    b = a + segment.y * step3;
+    a += segment.x * step3;
+    return true;
+}
+
 SmoothieEdge build(int camera, uint index) {
     SmoothieEdge nothing = SmoothieEdge(vec4(0.0), vec4(0.0), vec2(0.0), vec2(0.0));
     SilhouetteEdge silhouette = silhouettes[index];
-    LightCameraConstants c = lightCameras[camera];
+    SmoothieConstants c = smoothies[camera];
     bool leftFirst = silhouette.weight > 0;
-    vec3 a = (c.faceFromLight * vec4(leftFirst ? silhouette.aLight : silhouette.bLight, 1.0)).xyz;
-    vec3 b = (c.faceFromLight * vec4(leftFirst ? silhouette.bLight : silhouette.aLight, 1.0)).xyz;
+    vec3 a = (c.camera.faceFromLight * vec4(leftFirst ? silhouette.aLight : silhouette.bLight, 1.0)).xyz;
+    vec3 b = (c.camera.faceFromLight * vec4(leftFirst ? silhouette.bLight : silhouette.aLight, 1.0)).xyz;
 
     // Only what lies before the farthest receiver and in front of the camera has a place.
-    float farthest = smoothies[camera].nearness.x;
-    float nearest_m = isOrthographic(camera) ? -smoothies[camera].nearness.y : 1.0 / smoothies[camera].nearness.y;
+    float farthest = c.nearness.x;
+    float nearest_m = isOrthographic(camera) ? -c.nearness.y : 1.0 / c.nearness.y;
     vec2 segment = vec2(0.0, 1.0);
     if (!clip(segment, a.z - nearest_m, b.z - nearest_m)) return nothing;
     vec3 step3 = b - a;
     b = a + segment.y * step3;
     a += segment.x * step3;
-    vec2 placeA = isOrthographic(camera) ? a.xy : a.xy / a.z;
-    vec2 placeB = isOrthographic(camera) ? b.xy : b.xy / b.z;
-    vec2 ends = vec2(nearnessOf(camera, a.z), nearnessOf(camera, b.z));
-    if (max(ends.x, ends.y) <= farthest) return nothing;
+    if (max(nearnessOf(camera, a.z), nearnessOf(camera, b.z)) <= farthest) return nothing;
 
     // The part of the edge whose smoothie reaches into the window.
-    vec2 widths =
-        vec2(largestWidth(camera, placeA, ends.x, farthest), largestWidth(camera, placeB, ends.y, farthest));
-    float width = max(widths.x, widths.y);
-    vec2 low = c.window.xy - width, high = c.window.xy + 1.0 / c.window.zw + width;
-    segment = vec2(0.0, 1.0);
-    if (!clip(segment, placeA.x - low.x, placeB.x - low.x) || !clip(segment, high.x - placeA.x, high.x - placeB.x) ||
-        !clip(segment, placeA.y - low.y, placeB.y - low.y) || !clip(segment, high.y - placeA.y, high.y - placeB.y)) {
-        return nothing;
+    vec2 placeA, placeB, nearness, widths;
+    float reach = c.widths.w;
+    for (int i = 0; i < 2; ++i) {
+        if (!clipToWindow(camera, reach, a, b)) return nothing;
+        vec3 ha = homogeneous(camera, a), hb = homogeneous(camera, b);
+        placeA = ha.xy / ha.z;
+        placeB = hb.xy / hb.z;
+        nearness = vec2(nearnessOf(camera, a.z), nearnessOf(camera, b.z));
+        widths = largestWidths(camera, placeA, placeB, nearness, farthest);
+        reach = max(widths.x, widths.y);
     }
-    vec2 stepWindow = placeB - placeA;
-    vec4 edge = vec4(placeA + segment.x * stepWindow, placeA + segment.y * stepWindow);
-    vec2 nearness = vec2(mix(ends.x, ends.y, segment.x), mix(ends.x, ends.y, segment.y));
-    widths = vec2(mix(widths.x, widths.y, segment.x), mix(widths.x, widths.y, segment.y));
-    widths = boundByReceivers(camera, edge.xy, edge.zw, nearness, widths);
-    float span = distance(edge.xy, edge.zw);
-    if (!(span > 1e-6 * c.depth.w)) return nothing;  // points at the light: its neighbours' corners cover it
+    widths = boundByReceivers(camera, placeA, placeB, nearness, widths);
+    float span = distance(placeA, placeB);
+    if (!(span > 1e-6 * c.camera.depth.w)) return nothing;  // points at the light: its neighbours' corners cover it
 
-    vec2 along = (edge.zw - edge.xy) / span;
+    vec2 along = (placeB - placeA) / span;
     vec2 side = vec2(along.y, -along.x);
     vec2 normalA = vertexNormal(camera, leftFirst ? silhouette.a : silhouette.b, side);
     vec2 normalB = vertexNormal(camera, leftFirst ? silhouette.b : silhouette.a, side);
-    return SmoothieEdge(edge, vec4(normalA, normalB), nearness, widths);
+    return SmoothieEdge(vec4(placeA, placeB), vec4(normalA, normalB), nearness, widths);
 }
 
 void main() {

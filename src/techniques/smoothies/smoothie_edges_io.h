@@ -11,7 +11,6 @@ using glm::vec4;
 #endif
 
 const float vertexNormalScale = 1048576.0f;  // fixed point
-const int verticesPerSmoothie = 18;          // a rectangle and two corners, two triangles each
 const int tilesAcross = 32;                  // the map of the farthest surfaces
 
 // A silhouette edge as a light camera sees it, clipped to what its smoothie may reach.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "src/gl/raster_state.h"
@@ -14,11 +15,15 @@ namespace {
 
 constexpr std::array<std::string_view, 3> falloffs = {"light", "linear", "sinusoidal"};
 
-std::vector<std::string> variant(const Device::Internals& device, bool inner) {
-    std::vector<std::string> defines;
-    if (!device.layerFromVertexShader) defines.push_back("LAYER_BY_LAYER");
-    if (inner) defines.push_back("INNER");
-    return defines;
+/// Receivers that cast nothing are mapped at a quarter of the map's size: only widths depend on them.
+constexpr int receiverTexel_px = 4;
+
+void bindStorage(GLuint block, const gl::Buffer& buffer) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block, buffer.name());
+}
+
+void reserve(gl::Buffer& buffer, std::size_t size_bytes, std::string_view label) {
+    if (buffer.name() == 0 || buffer.size_bytes() < size_bytes) buffer = gl::Buffer(size_bytes, label);
 }
 
 bool hasSize(const AreaLight& light) {
@@ -30,6 +35,11 @@ bool hasSize(const AreaLight& light) {
         default:
             return light.radius_m > 0;
     }
+}
+
+/// Blocks light with holes in it.
+bool isMasked(const Caster& caster) {
+    return caster.casts && caster.alphaMask.texture != 0;
 }
 
 /// How far away, along the camera's axis, the receivers reach.
@@ -48,28 +58,29 @@ double farthestReceiver_m(const LightCamera& camera, const LightSpaceScene& scen
 Smoothies::Smoothies(Device& device)
     : device_(device.internals()),
       depthMap_(device),
+      maskedMap_(device),
       receiverMap_(device),
       silhouettes_(device),
       farthest_(device_.shaders, {"src/techniques/smoothies/farthest.comp.glsl"}),
       build_(device_.shaders, {"src/techniques/smoothies/smoothie_edges.comp.glsl"}),
       clearNormals_(device_.shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"}, {"CLEAR"}),
       addNormals_(device_.shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"}),
-      outerProgram_(
-          device_.shaders,
-          {"src/techniques/smoothies/smoothie.vert.glsl", "src/techniques/smoothies/outer.frag.glsl"},
-          variant(device_, false)),
-      innerProgram_(
-          device_.shaders,
-          {"src/techniques/smoothies/smoothie.vert.glsl", "src/techniques/smoothies/inner.frag.glsl"},
-          variant(device_, true)),
+      smoothie_(device_.shaders,
+                {"src/techniques/smoothies/smoothie.vert.glsl", "src/techniques/smoothies/smoothie.geom.glsl",
+                 "src/techniques/smoothies/smoothie.frag.glsl"}),
+      classify_(device_.shaders, {"src/techniques/smoothies/classify.comp.glsl"}),
       resolve_(device_.shaders, {"src/techniques/smoothies/resolve.comp.glsl"}),
-      noVertices_(gl::makeFloatVertexArray(3)),
-      constants_("smoothie constants") {}
+      resolveColored_(device_.shaders, {"src/techniques/smoothies/resolve.comp.glsl"}, {"COLORED"}),
+      masked_(device_.shaders, {"src/techniques/smoothies/masked.comp.glsl"}),
+      maskedColored_(device_.shaders, {"src/techniques/smoothies/masked.comp.glsl"}, {"COLORED"}),
+      lightProfileProgram_(device_.shaders, {"src/techniques/smoothies/light_profile.comp.glsl"}),
+      edgesAsVertices_(gl::makeFloatVertexArray(4, 4, 4)),
+      constants_(2 * maxSmoothieCameras * sizeof(SmoothieConstants), "smoothie constants") {}
 
 void Smoothies::describe(ParameterVisitor& visitor) {
     visitor.integer({.name = "map_size",
                      .unit = "texels",
-                     .help = "width and height of the shadow map and the smoothie buffers"},
+                     .help = "width and height of the shadow map; smoothies are drawn at half of it"},
                     mapSize_px_, {16, 16384});
     visitor.boolean({.name = "inner",
                      .help = "smoothies reach into the blocker too, so that the umbra shrinks as the light "
@@ -101,6 +112,7 @@ SmoothieConstants Smoothies::constantsOf(const AreaLight& light, const LightCame
     // anyway.
     const double nearest_m = camera.orthographic ? camera.near_m : 1e-4 * farthest_m;
     return {
+        .camera = camera.constants(mapSize_px_),
         .halfX = glm::dvec4(faceFromLight[0] * double(rect ? 0.5f * light.width_m : light.radius_m), 0),
         .halfY = glm::dvec4(faceFromLight[1] * double(rect ? 0.5f * light.height_m : light.radius_m), 0),
         .widths = {distant ? std::tan(0.5 * light.angle_rad) : light.radius_m, 0.5 * t_ * window,
@@ -112,35 +124,24 @@ SmoothieConstants Smoothies::constantsOf(const AreaLight& light, const LightCame
 }
 
 void Smoothies::allocate(int layers) {
-    if (outer_.width_px() == mapSize_px_ && outer_.layers() >= layers && (!inner_ || innerEdges_.name() != 0))
-        return;
+    const int size_px = std::max(1, mapSize_px_ / smoothieTexel_px);
+    if (deepest_.width_px() == size_px && deepest_.layers() >= layers) return;
     const auto make = [&](GLenum format, std::string_view label) {
-        return gl::Texture({.width_px = mapSize_px_,
-                            .height_px = mapSize_px_,
-                            .layers = layers,
-                            .format = format,
-                            .label = label});
+        return gl::Texture(
+            {.width_px = size_px, .height_px = size_px, .layers = layers, .format = format, .label = label});
     };
-    for (gl::Texture* texture : {&outer_, &innerEdges_, &innerOrder_}) *texture = {};  // freed first, to fit
-    outer_ = make(GL_RG32F, "smoothies/outer");
-    outerFramebuffer_ = gl::Framebuffer({&outer_}, nullptr, "smoothies/outer");
-    if (!inner_) return;
-    innerEdges_ = make(GL_RGBA32F, "smoothies/inner");
-    innerOrder_ = make(GL_DEPTH_COMPONENT32F, "smoothies/inner order");
-    innerFramebuffer_ = gl::Framebuffer({&innerEdges_}, &innerOrder_, "smoothies/inner");
+    deepest_ = {};  // freed first, so that the old need not fit beside the new
+    order_ = {};
+    deepest_ = make(GL_R32UI, "smoothies/deepest edges");
+    order_ = make(GL_DEPTH_COMPONENT32F, "smoothies/order");
+    framebuffer_ = gl::Framebuffer({&deepest_}, &order_, "smoothies");
 }
 
 void Smoothies::buildSmoothies(bool distant) {
-    const auto reserve = [](gl::Buffer& buffer, std::size_t size_bytes, std::string_view label) {
-        if (buffer.name() == 0 || buffer.size_bytes() < size_bytes) buffer = gl::Buffer(size_bytes, label);
-    };
     const auto cameras = std::size_t(depthMap_.count());
-    reserve(tiles_, cameras * tilesAcross * tilesAcross * sizeof(float), "smoothies/tiles");
+    reserve(farthestTiles_, cameras * tilesAcross * tilesAcross * sizeof(float), "smoothies/farthest");
     reserve(vertexNormals_, silhouettes_.vertexCount() * sizeof(glm::ivec4), "smoothies/vertex normals");
     reserve(smoothieEdges_, cameras * silhouettes_.edgeCount() * sizeof(SmoothieEdge), "smoothies/edges");
-    const auto bindStorage = [](GLuint block, const gl::Buffer& buffer) {
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block, buffer.name());
-    };
     const auto dispatchEdges = [&] {
         glDispatchComputeIndirect(GLintptr(SilhouetteExtractor::dispatchOffset));
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -158,10 +159,8 @@ void Smoothies::buildSmoothies(bool distant) {
     dispatchEdges();
 
     // How far away receivers are.
-    if (hasReceiverMap_) receiverMap_.bind(1, 0);
-    depthMap_.bind(0, 0);
-    constants_.bind(1);
-    bindStorage(2, tiles_);
+    bindSurfaces();
+    bindStorage(2, farthestTiles_);
     farthest_.use();
     glUniform1i(0, hasReceiverMap_);
     glDispatchCompute(tilesAcross, tilesAcross, GLuint(cameras));
@@ -176,38 +175,82 @@ void Smoothies::buildSmoothies(bool distant) {
     glUniform1i(0, GLint(cameras));
     glUniform1ui(1, GLuint(silhouettes_.edgeCount()));
     dispatchEdges();
+    glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
 }
 
-void Smoothies::drawSmoothies(const gl::Program& program, const gl::Framebuffer& framebuffer,
-                              const gl::Texture& color, const gl::Texture* depth) const {
-    constexpr std::array<float, 4> nothing = {3.0e38f, 1, 0, 0};  // outer: no smoothie, lit
-    constexpr std::array<float, 4> noEdge = {0, 0, 0, 0};
+void Smoothies::bindConstants(int firstCamera) const {
+    glBindBufferRange(GL_UNIFORM_BUFFER, 1, constants_.name(),
+                      GLintptr(std::size_t(firstCamera) * sizeof(SmoothieConstants)),
+                      GLsizeiptr(maxSmoothieCameras * sizeof(SmoothieConstants)));
+}
+
+void Smoothies::bindSurfaces() const {
+    depthMap_.texture().bind(0);
+    if (hasReceiverMap_) receiverMap_.texture().bind(1);
+}
+
+void Smoothies::drawSmoothies() {
+    constexpr std::array<GLuint, 4> noEdge = {0xffffffffu};
     constexpr float farthest = 1;
-    const auto clearAndDraw = [&] {
-        glClearNamedFramebufferfv(framebuffer.name(), GL_COLOR, 0,
-                                  depth != nullptr ? noEdge.data() : nothing.data());
-        if (depth != nullptr) glClearNamedFramebufferfv(framebuffer.name(), GL_DEPTH, 0, &farthest);
-        glDrawArraysIndirect(GL_TRIANGLES, nullptr);
-    };
-    program.use();
-    glBindVertexArray(noVertices_.name());
-    if (hasReceiverMap_) receiverMap_.bind(1, 0);
-    depthMap_.bind(0, 0);
-    constants_.bind(1);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, smoothieEdges_.name());
+    gl::beginPass(framebuffer_.name(), {.width_px = deepest_.width_px(),
+                                        .height_px = deepest_.height_px(),
+                                        .depthTest = GL_LESS,
+                                        .depthWrite = true});
+    smoothie_.use();
+    glBindVertexArray(edgesAsVertices_.name());
+    bindSurfaces();
     glUniform1i(0, hasReceiverMap_);
-    glUniform1ui(1, GLuint(silhouettes_.edgeCount()));
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, silhouettes_.commands().name());
-    if (device_.layerFromVertexShader) {
-        clearAndDraw();
-        return;
+    glClearNamedFramebufferuiv(framebuffer_.name(), GL_COLOR, 0, noEdge.data());
+    glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &farthest);
+    for (int camera = 0; camera < depthMap_.count(); ++camera) {
+        const std::size_t first = std::size_t(camera) * silhouettes_.edgeCount();
+        for (GLuint attribute = 0; attribute < 3; ++attribute) {
+            glEnableVertexArrayAttrib(edgesAsVertices_.name(), attribute);
+            glVertexArrayVertexBuffer(edgesAsVertices_.name(), attribute, smoothieEdges_.name(),
+                                      GLintptr(first * sizeof(SmoothieEdge) + attribute * sizeof(glm::vec4)),
+                                      sizeof(SmoothieEdge));
+        }
+        glUniform1i(1, camera);
+        bindConstants(camera);
+        glDrawArraysIndirect(GL_POINTS, nullptr);
     }
-    for (int layer = 0; layer < depthMap_.count(); ++layer) {
-        glNamedFramebufferTextureLayer(framebuffer.name(), GL_COLOR_ATTACHMENT0, color.name(), 0, layer);
-        if (depth != nullptr)
-            glNamedFramebufferTextureLayer(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth->name(), 0, layer);
-        glUniform1i(2, layer);
-        clearAndDraw();
+    bindConstants(0);
+}
+
+void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene,
+                         const std::vector<LightCamera>& cameras) {
+    const auto casting = [&](auto&& which) {
+        std::vector<Caster> casters(inputs.casters.begin(), inputs.casters.end());
+        for (Caster& caster : casters) caster.casts = which(caster);
+        return casters;
+    };
+    hasMaskedMap_ = hasSmoothies_ && std::ranges::any_of(inputs.casters, isMasked);
+    {
+        const auto pass = timers_.pass("smoothies/depth map");
+        depthMap_.render(casting([&](const Caster& caster) {
+                             return caster.casts && !(hasMaskedMap_ && isMasked(caster));
+                         }),
+                         scene, cameras, mapSize_px_);
+    }
+    if (hasMaskedMap_) {
+        const auto pass = timers_.pass("smoothies/masked map");
+        maskedMap_.render(casting(isMasked), scene, cameras, mapSize_px_);
+        if (!saidMasked_) {
+            device_.log.write(LogLevel::info,
+                              "smoothies: casters with an alpha mask have no silhouette edges; their shadows "
+                              "are filtered from a map of their own");
+            saidMasked_ = true;
+        }
+    }
+    // What receives but is not in the depth map is drawn by itself: smoothies need to know how far away it
+    // is.
+    const std::vector<Caster> receivers =
+        casting([](const Caster& caster) { return caster.receives && (!caster.casts || isMasked(caster)); });
+    hasReceiverMap_ = hasSmoothies_ && std::ranges::any_of(receivers, &Caster::casts);
+    if (hasReceiverMap_) {
+        const auto pass = timers_.pass("smoothies/receiver map");
+        receiverMap_.render(receivers, scene, cameras, std::max(1, mapSize_px_ / receiverTexel_px));
     }
 }
 
@@ -218,96 +261,124 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
     const std::vector<LightCamera> cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px_});
-    {
-        const auto pass = timers_.pass("smoothies/depth map");
-        depthMap_.render(inputs.casters, scene, cameras, mapSize_px_);
-    }
-
     hasSmoothies_ = hasSize(light) && !cameras.empty();
-    if (hasSmoothies_) {
-        std::vector<SmoothieConstants> constants;
-        for (const LightCamera& camera : cameras) constants.push_back(constantsOf(light, camera, scene));
-        constants_.write(constants);
-        allocate(int(cameras.size()));
+    drawMaps(inputs, scene, cameras);
 
-        std::vector<SilhouetteSource> sources;
-        bool anyMasked = false;
-        for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
-            const Caster& caster = inputs.casters[i];
-            if (!caster.casts) continue;
-            const bool masked = caster.alphaMask.texture != 0;
-            anyMasked = anyMasked || masked;
-            if (!masked) sources.push_back({caster.mesh, scene.lightFromMesh[i]});
-        }
-        if (anyMasked && !saidMasked_) {
-            device_.log.write(
-                LogLevel::info,
-                "smoothies: casters with an alpha mask have no silhouette edges; their shadows get the "
-                "map's 2x2 filter and no penumbra");
-            saidMasked_ = true;
-        }
-        // What receives but does not cast is drawn by itself: smoothies need to know how far away it is.
-        std::vector<Caster> receivers(inputs.casters.begin(), inputs.casters.end());
-        for (Caster& caster : receivers) caster.casts = !caster.casts && caster.receives;
-        hasReceiverMap_ = std::ranges::any_of(receivers, &Caster::casts);
-        if (hasReceiverMap_) {
-            const auto pass = timers_.pass("smoothies/receiver map");
-            receiverMap_.render(receivers, scene, cameras, mapSize_px_);
-        }
+    std::array<SmoothieConstants, maxSmoothieCameras> constants{};
+    for (std::size_t i = 0; i < cameras.size(); ++i) constants[i] = constantsOf(light, cameras[i], scene);
+    constants_.write(std::as_bytes(std::span(constants)));
+    bindConstants(0);
+    if (hasSmoothies_) {
+        allocate(layersPerCamera * int(cameras.size()));
         {
             const auto pass = timers_.pass("smoothies/silhouettes");
-            const unsigned instances = device_.layerFromVertexShader ? unsigned(cameras.size()) : 1;
-            silhouettes_.extract(sources, distant ? LightPoint(0, 0, 1, 0) : LightPoint(0, 0, 0, 1),
-                                 {.verticesPerEdge = unsigned(verticesPerSmoothie), .instances = instances});
-            buildSmoothies(distant);
-        }
-        if (inner_) {
-            const auto pass = timers_.pass("smoothies/inner half");
-            gl::beginPass(innerFramebuffer_.name(), {.width_px = mapSize_px_,
-                                                     .height_px = mapSize_px_,
-                                                     .depthTest = GL_LESS,
-                                                     .depthWrite = true});
-            drawSmoothies(innerProgram_, innerFramebuffer_, innerEdges_, &innerOrder_);
+            std::vector<SilhouetteSource> sources;
+            for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
+                const Caster& caster = inputs.casters[i];
+                if (caster.casts && !isMasked(caster))
+                    sources.push_back({caster.mesh, scene.lightFromMesh[i]});
+            }
+            silhouettes_.extract(sources, distant ? LightPoint(0, 0, 1, 0) : LightPoint(0, 0, 0, 1), {});
         }
         {
-            const auto pass = timers_.pass("smoothies/outer half");
-            gl::beginPass(outerFramebuffer_.name(),
-                          {.width_px = mapSize_px_, .height_px = mapSize_px_, .blendEquation = GL_MIN});
-            if (inner_) innerEdges_.bind(2);
-            drawSmoothies(outerProgram_, outerFramebuffer_, outer_, nullptr);
+            const auto pass = timers_.pass("smoothies/construction");
+            buildSmoothies(distant);
+        }
+        {
+            const auto pass = timers_.pass("smoothies/smoothies");
+            drawSmoothies();
+        }
+        if (light.radianceTexture != 0) profileLight(light.radianceTexture);
+    }
+    view_.bind(inputs.view, lightFromWorldMatrix);
+    resolve(light, out);
+    if (hasMaskedMap_) resolveMasked(inputs, scene, cameras, out);
+}
+
+void Smoothies::useForPicture(const gl::Program& program, const AreaLight& light) const {
+    program.use();
+    glUniform1i(0, depthMap_.count());
+    glUniform1i(1, light.shape == LightShape::distant);
+    glUniform1i(2, isOneSided(light));
+}
+
+void Smoothies::resolve(const AreaLight& light, const VisibilityBuffer& out) {
+    const auto tilesOf = [](int size_px) { return std::size_t((size_px + tileSize_px - 1) / tileSize_px); };
+    reserve(tiles_, 4 * (4 + tilesOf(out.width_px()) * tilesOf(out.height_px())), "smoothies/tiles");
+    constexpr std::array<GLuint, 4> noTiles = {0, 0, 1, 0};
+    tiles_.write(std::as_bytes(std::span(noTiles)));
+    bindStorage(3, tiles_);
+    depthMap_.bind(3, 0);
+    deepest_.bind(4);
+    bindVisibility(out, 0);
+    {
+        const auto pass = timers_.pass("smoothies/classify");
+        useForPicture(classify_, light);
+        glUniform1i(3, hasSmoothies_);
+        gl::dispatchPixels(out.width_px(), out.height_px());
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                        GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    }
+    if (!hasSmoothies_) return;
+    const auto pass = timers_.pass("smoothies/resolve");
+    useForPicture(out.colored() ? resolveColored_ : resolve_, light);
+    if (out.colored()) lightProfile_.bind(5);
+    glUniform1ui(3, GLuint(silhouettes_.edgeCount()));
+    bindStorage(2, smoothieEdges_);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, tiles_.name());
+    glDispatchComputeIndirect(0);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void Smoothies::resolveMasked(const ShadowInputs& inputs, const LightSpaceScene& scene,
+                              const std::vector<LightCamera>& cameras, const VisibilityBuffer& out) {
+    // The search for blockers is as wide as the nearest of them could make a penumbra.
+    float nearestNearness = -std::numeric_limits<float>::infinity();
+    for (const LightCamera& camera : cameras) {
+        const float nearest = constantsOf(inputs.light, camera, scene).nearness.y;
+        for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
+            if (!isMasked(inputs.casters[i]) || std::isnan(scene.boxes[i][0].x)) continue;
+            for (const glm::dvec3& corner : scene.boxes[i]) {
+                const double z = (camera.faceFromLight * glm::dvec4(corner, 1)).z;
+                const double nearness = camera.orthographic ? -z : z > 0 ? 1 / z : nearest;
+                nearestNearness = std::max(nearestNearness, std::min(float(nearness), nearest));
+            }
         }
     }
-
-    const auto pass = timers_.pass("smoothies/resolve");
-    resolve_.use();
-    view_.bind(inputs.view, lightFromWorldMatrix);
-    depthMap_.bind(3, 0);
-    if (hasSmoothies_) constants_.bind(1);
-    outer_.bind(4);
-    innerEdges_.bind(5);
-    bindVisibility(out, 0);
-    glUniform1i(0, depthMap_.count());
-    glUniform1i(1, distant);
-    glUniform1i(2, isOneSided(light));
-    glUniform1i(3, hasSmoothies_);
+    const auto pass = timers_.pass("smoothies/masked");
+    useForPicture(out.colored() ? maskedColored_ : masked_, inputs.light);
+    glUniform1f(3, nearestNearness);
+    maskedMap_.bind(3, 0);
+    glBindImageTexture(0, out.texture(), 0, GL_FALSE, 0, GL_READ_WRITE, out.colored() ? GL_RGBA16F : GL_R32F);
     gl::dispatchPixels(out.width_px(), out.height_px());
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void Smoothies::profileLight(GLuint radianceTexture) {
+    const auto pass = timers_.pass("smoothies/light profile");
+    if (lightProfile_.name() == 0) {
+        lightProfile_ = gl::Texture({.width_px = profileDirections + 1,
+                                     .height_px = profileOffsets,
+                                     .format = GL_RGBA32F,
+                                     .filter = GL_LINEAR,
+                                     .label = "smoothies/light profile"});
+    }
+    lightProfileProgram_.use();
+    glBindTextureUnit(5, radianceTexture);
+    lightProfile_.bindImage(1, GL_WRITE_ONLY);
+    glDispatchCompute(profileDirections + 1, 1, 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 void Smoothies::inspect(InspectionVisitor& visitor) const {
     visitor.texture(
         {.name = "depth map", .texture = depthMap_.texture().name(), .layers = depthMap_.count()});
     if (!hasSmoothies_) return;
-    visitor.texture({.name = "smoothie depth (red) and visibility (green)",
-                     .texture = outer_.name(),
-                     .layers = depthMap_.count()});
-    if (inner_) {
-        visitor.texture({.name = "way to the closest edge (red, green) and its nearness (blue)",
-                         .texture = innerEdges_.name(),
-                         .layers = depthMap_.count(),
-                         .black = -0.1f,
-                         .white = 0.1f});
-    }
+    // a / (1 + a) of alpha: half at the penumbra's border. Outer half, then the inner one in three layers.
+    visitor.texture({.name = "alpha of the deepest smoothies, outer and inner halves",
+                     .texture = order_.name(),
+                     .layers = layersPerCamera * depthMap_.count(),
+                     .white = 0.5f});
 }
 
 Statistics Smoothies::statistics() const {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How wide a smoothie is, and how visibility changes across it. Includer defines SMOOTHIE_BLOCK and what depth_map.glsl
-// needs.
+// How wide a smoothie is, and how visibility changes across it.
 //
 // A "place" is a point in a light camera's window: tangents (x/z, y/z), or metres where the camera is orthographic.
 // "Nearness" is 1/z of a perspective camera and -z of an orthographic one. Both are linear in the window along a
@@ -11,58 +10,62 @@
 //     w = h (nb - nr),   h = max over s of dot(n, s.xy - s.z q).
 // With t = h nb that is t (1 - b/r): equation 1, with the size of the smoothie that the light asks for. For a distant
 // light h is the tangent of half its angle.
-#include "src/techniques/common/depth_map.glsl"
 #include "src/techniques/smoothies/smoothies_io.h"
 
-layout(std430, binding = SMOOTHIE_BLOCK) readonly buffer Smoothies { SmoothieConstants smoothies[]; };
+// A uniform block, since storage blocks are read lane by lane on software rasterisers.
+layout(std140, binding = 1) uniform SmoothieBlock { SmoothieConstants smoothies[maxSmoothieCameras]; };
 
 const int shapeRect = 0, shapeDisk = 1, shapeSphere = 2, shapeDistant = 3;
 const int falloffLight = 0, falloffLinear = 1, falloffSinusoidal = 2;
-const float noSmoothie = 3.0e38;  // a depth behind everything
 
-bool isOrthographic(int camera) { return lightCameras[camera].depth.z == 1.0; }
+bool isOrthographic(int camera) { return smoothies[camera].camera.depth.z == 1.0; }
 
 float nearnessOf(int camera, float depth_m) { return isOrthographic(camera) ? -depth_m : 1.0 / depth_m; }
 
 // The same for a value in the depth map; where that is empty, of the farthest receiver.
 float storedNearness(int camera, float stored) {
     if (stored == 0.0) return smoothies[camera].nearness.x;
-    vec4 depth = lightCameras[camera].depth;
+    vec4 depth = smoothies[camera].camera.depth;
     return depth.z == 1.0 ? stored * (depth.y - depth.x) - depth.y : stored / depth.x;
 }
 
 vec2 placeOf(int camera, vec2 uv) {
-    vec4 window = lightCameras[camera].window;
+    vec4 window = smoothies[camera].camera.window;
     return uv / window.zw + window.xy;
 }
 
+vec2 uvOf(int camera, vec2 place) {
+    vec4 window = smoothies[camera].camera.window;
+    return (place - window.xy) * window.zw;
+}
+
 ivec2 texelOf(int camera, vec2 place, int size_px) {
-    vec4 window = lightCameras[camera].window;
-    return clamp(ivec2(floor((place - window.xy) * window.zw * float(size_px))), ivec2(0), ivec2(size_px - 1));
+    return clamp(ivec2(floor(uvOf(camera, place) * float(size_px))), ivec2(0), ivec2(size_px - 1));
 }
 
-vec2 placeOfTexel(int camera, ivec2 texel, int size_px) {
-    return placeOf(camera, (vec2(texel) + 0.5) / float(size_px));
-}
-
-// The light's extent along a direction in the window, and how it is spread: for a rect the part (of both halves) along
-// its shorter-looking axis, 0 where it is seen edge on and 1/2 where both count alike.
+// The light's extent along a direction in the window, and how it is spread.
 struct LightExtent {
     float half_m;
-    float spread;
+    float spread;  // of a rect the part (of both halves) along its shorter-looking axis: 0 seen edge on, 1/2 both alike
+    vec2 along;    // of a rect its axes' shares, with signs
 };
+
+LightExtent rectExtent(float x, float y) {
+    float sum = abs(x) + abs(y);
+    return LightExtent(sum, min(abs(x), abs(y)) / max(sum, 1e-30), vec2(x, y) / max(sum, 1e-30));
+}
 
 LightExtent lightExtent(int camera, vec2 place, vec2 normal) {
     SmoothieConstants c = smoothies[camera];
-    if (c.settings.x == shapeDistant) return LightExtent(c.widths.x, 0.0);
+    if (c.settings.x == shapeDistant) return LightExtent(c.widths.x, 0.0, vec2(0.0));
     if (c.settings.x == shapeSphere) {
         float along = dot(place, normal);
-        return LightExtent(c.widths.x * sqrt(1.0 + along * along), 0.0);
+        return LightExtent(c.widths.x * sqrt(1.0 + along * along), 0.0, vec2(0.0));
     }
-    float x = abs(dot(c.halfX.xy - c.halfX.z * place, normal));
-    float y = abs(dot(c.halfY.xy - c.halfY.z * place, normal));
-    if (c.settings.x == shapeDisk) return LightExtent(length(vec2(x, y)), 0.0);
-    return LightExtent(x + y, min(x, y) / max(x + y, 1e-30));
+    float x = dot(c.halfX.xy - c.halfX.z * place, normal);
+    float y = dot(c.halfY.xy - c.halfY.z * place, normal);
+    if (c.settings.x == shapeDisk) return LightExtent(length(vec2(x, y)), 0.0, vec2(0.0));
+    return rectExtent(x, y);
 }
 
 // Half the penumbra's width in the window; never less than a texel, below which a map cannot show it.
@@ -95,13 +98,4 @@ float diskVisible(float x) {
 float lightVisible(int camera, float x, float spread) {
     x = clamp(x, -1.0, 1.0);
     return smoothies[camera].settings.x == shapeRect ? rectVisible(x, spread) : diskVisible(x);
-}
-
-// Visibility at x in [-1, 1] from the penumbra's inner to its outer border; x = 0 is the edge as the centre sees it.
-float falloff(int camera, float x, float spread) {
-    SmoothieConstants c = smoothies[camera];
-    x = clamp(x, -1.0, 1.0);
-    if (c.settings.y == falloffLinear) return 0.5 + 0.5 * x;
-    if (c.settings.y == falloffSinusoidal) return clamp(0.5 + 0.5 * sin(1.57079633 * x), 0.0, 1.0);
-    return lightVisible(camera, x, spread);
 }

@@ -4,6 +4,9 @@
 // says what is theirs and what goes past it.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "penumbra/technique.h"
 #include "src/geometry/silhouette_extractor.h"
 #include "src/gl/pass_timers.h"
@@ -28,10 +31,18 @@ class Smoothies final : public Technique {
   private:
     SmoothieConstants constantsOf(const AreaLight& light, const LightCamera& camera,
                                   const LightSpaceScene& scene) const;
+    void drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene,
+                  const std::vector<LightCamera>& cameras);
     void allocate(int layers);
     void buildSmoothies(bool distant);
-    void drawSmoothies(const gl::Program& program, const gl::Framebuffer& framebuffer,
-                       const gl::Texture& color, const gl::Texture* depth) const;
+    void bindConstants(int firstCamera) const;
+    void bindSurfaces() const;
+    void drawSmoothies();
+    void profileLight(GLuint radianceTexture);
+    void useForPicture(const gl::Program& program, const AreaLight& light) const;
+    void resolve(const AreaLight& light, const VisibilityBuffer& out);
+    void resolveMasked(const ShadowInputs& inputs, const LightSpaceScene& scene,
+                       const std::vector<LightCamera>& cameras, const VisibilityBuffer& out);
 
     int mapSize_px_ = 1024;
     float t_ = 0;
@@ -40,15 +51,17 @@ class Smoothies final : public Technique {
     int falloff_ = 0;
 
     Device::Internals& device_;
-    DepthMap depthMap_, receiverMap_;
+    DepthMap depthMap_, maskedMap_, receiverMap_;
+    bool hasMaskedMap_ = false;
     bool hasReceiverMap_ = false;
     SilhouetteExtractor silhouettes_;
-    gl::Program farthest_, build_, clearNormals_, addNormals_, outerProgram_, innerProgram_, resolve_;
-    gl::Buffer tiles_, vertexNormals_, smoothieEdges_;
-    gl::VertexArrayHandle noVertices_;
-    gl::Texture outer_, innerEdges_, innerOrder_;
-    gl::Framebuffer outerFramebuffer_, innerFramebuffer_;
-    gl::StorageArray<SmoothieConstants> constants_;
+    gl::Program farthest_, build_, clearNormals_, addNormals_, smoothie_, classify_, resolve_,
+        resolveColored_, masked_, maskedColored_, lightProfileProgram_;
+    gl::Buffer farthestTiles_, vertexNormals_, smoothieEdges_, tiles_;
+    gl::VertexArrayHandle edgesAsVertices_;
+    gl::Texture deepest_, order_, lightProfile_;
+    gl::Framebuffer framebuffer_;
+    gl::Buffer constants_;  ///< of the cameras, and as many again, so that a block may begin with any
     ViewBinding view_;
     gl::PassTimers timers_;
     bool hasSmoothies_ = false;
