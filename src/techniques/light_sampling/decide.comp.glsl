@@ -81,7 +81,7 @@ void startTree() {
     subdivision.coarseVertices = coarse;
     for (int y = 0; y < 8; ++y) subdivision.deepestRows[y] = 0u;
     subdivision.decidedLevels = baseDepth;
-    subdivision.reachedMaximum = subdivision.errorEstimate = subdivision.errorBound = 0u;
+    subdivision.reachedMaximum = subdivision.errorBound = 0u;
     for (int i = 0; i < maxStages; ++i) plan.stages[i] = ivec4(slots, 0, 0, 0);
     plan.stages[stageOfAll] = plan.stages[compares ? 0 : stageOfDeepest] = ivec4(0, slots, 0, 0);
     if (compares) plan.stages[stageOfCoarse] = plan.stages[0];
@@ -167,6 +167,6 @@ void main() {
         plan.stages[stageOfAll] = ivec4(0, slots, 0, 0);
         if (!isDeepest) plan.stages[stageOfCoarse] = plan.stages[stageOfAll];
         setGroups(!isDeepest);
-        if (!isDeepest) subdivision.errorEstimate = subdivision.errorBound = 0u;
+        if (decided < maxDepth || maxDepth == deepestLevel) subdivision.errorBound = 0u;  // told anew of the finer tree
     }
 }

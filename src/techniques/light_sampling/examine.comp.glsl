@@ -14,22 +14,19 @@ layout(std430, binding = 0) buffer SubdivisionBlock { Subdivision subdivision; }
 
 layout(location = 0) uniform int maxDepth;
 layout(location = 1) uniform float maxError;  // 0: the paper's test decides
+layout(location = 2) uniform float cellError; // of what the corners of a quad say of it, over its area
 
 shared uint failing[splittableQuads];
 shared uint known[15];   // quads to count for: level l's rows from 2^l - 1 on, bit x the quad whose left edge is column x
 shared uint leaves[15];  // quads that are not split so far; << 16: of level 3, those that are
-shared uint largestEstimate, largestBound;
+shared uint largestError;
 
-// How wrong the sum may be: a quad whose corners disagree is lit in an unknown part of its area a. The mean of its
-// corners is off by 3/4 a at most: the bound. Parts spread evenly between nothing and all deviate by a / sqrt(12),
-// independently of each other: the estimate. Quads of the deepest level are not compared; an edge that crosses a quad
-// crosses three of its quarters at most, so that is what a quad split into them counts as.
-struct Error {
-    float variance, bound;
-};
-
-Error errorOf(uvec4 bits) {
-    Error error = Error(0.0, 0.0);
+// How wrong the sum may be: a quad whose corners disagree is lit in an unknown part of its area a, and what the corners
+// say of it is off by a times `cellError` in the root mean square. However the errors of quads depend on each other, that
+// of their sum is no more than the sum of theirs (Minkowski). Quads of the deepest level are not compared; an edge that
+// crosses a quad crosses three of its quarters at most, so that is what a quad split into them counts as.
+float errorOf(uvec4 bits) {
+    float error = 0.0;
     for (int l = 0; l <= min(subdivision.decidedLevels, 3); ++l) {
         int mixed = 0, quartered = 0;
         for (int y = 0; y < (1 << l); ++y) {
@@ -38,11 +35,9 @@ Error errorOf(uvec4 bits) {
             mixed += bitCount(penumbra & counts & 0xffffu);
             quartered += bitCount(penumbra & (counts >> 16));
         }
-        float area = 1.0 / float(1 << (2 * l));
-        error.variance += area * area / 12.0 * (float(mixed) + 3.0 / 16.0 * float(quartered));
-        error.bound += 0.75 * area * (float(mixed) + 0.75 * float(quartered));
+        error += (float(mixed) + 0.75 * float(quartered)) / float(1 << (2 * l));
     }
-    return error;
+    return cellError * error;
 }
 
 bool isKnown(ivec2 place) { return subdivision.slotOfVertex[place.y * latticeSide + place.x] >= 0; }
@@ -73,7 +68,7 @@ void main() {
     int decided = subdivision.decidedLevels;
     uint index = gl_LocalInvocationIndex;
     if (index < uint(splittableQuads)) failing[index] = 0u;
-    if (index == 0u) largestEstimate = largestBound = 0u;
+    if (index == 0u) largestError = 0u;
     if (index < 15u) listQuads(int(index), decided);
     barrier();
 
@@ -83,11 +78,9 @@ void main() {
     if ((bits.x | bits.y | bits.z) != 0u) {
         bool wantsAll = false;
         if (maxError > 0.0) {
-            Error error = errorOf(bits);
-            float estimate = sqrt(error.variance);
-            wantsAll = estimate > maxError;
-            atomicMax(largestEstimate, floatBitsToUint(estimate));
-            atomicMax(largestBound, floatBitsToUint(error.bound));
+            float error = errorOf(bits);
+            wantsAll = error > maxError;
+            atomicMax(largestError, floatBitsToUint(error));
         }
         uvec4 ring[9];
         for (int i = 0; i < 9; ++i) {
@@ -113,8 +106,5 @@ void main() {
     if (index < uint(splittableQuads) && failing[index] > 0u) {
         atomicAdd(subdivision.failing[index], failing[index]);
     }
-    if (index == 0u) {
-        atomicMax(subdivision.errorEstimate, largestEstimate);
-        atomicMax(subdivision.errorBound, largestBound);
-    }
+    if (index == 0u) atomicMax(subdivision.errorBound, largestError);
 }

@@ -115,13 +115,24 @@ void SubdivisionPasses::compare(const ShadowInputs& inputs, const SampleCameras&
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void SubdivisionPasses::examine(const SampleMaps& maps, const SubdivisionOptions& options) {
+void SubdivisionPasses::prepareExamination(const SubdivisionOptions& options) {
     examine_.use();
     bits_.bind(0);
     bindStorage(0, tree_);
     glUniform1i(0, options.maxDepth);
     glUniform1f(1, options.maxError);
+    glUniform1f(2, options.cellError);
+}
+
+void SubdivisionPasses::examine(const SampleMaps& maps, const SubdivisionOptions& options) {
+    prepareExamination(options);
     dispatchPlanned(maps, offsetof(SamplingPlan, examineGroups));
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void SubdivisionPasses::examineError(const SubdivisionOptions& options) {
+    prepareExamination(options);
+    glDispatchCompute(GLuint(bits_.width_px() + 15) / 16, GLuint(bits_.height_px() + 15) / 16, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

@@ -18,7 +18,8 @@ struct SubdivisionOptions {
     int minDepth = 1;                  ///< every quad above it is split
     int maxDepth = deepestLevel;
     int tolerated = 0;   ///< failing fragments that do not yet split a quad
-    float maxError = 0;  ///< 0: the paper's test; else split until the error's estimate is below
+    float maxError = 0;  ///< 0: the paper's test; else split until the bound of the error is below
+    float cellError = 0;  ///< of a quad whose corners disagree, over its area
 
     /// Down to which the tree is split at its start: what minDepth asks for, as far as the samples allow.
     int baseDepth() const;
@@ -51,6 +52,8 @@ class SubdivisionPasses {
     /// Tests the quads that are known, and splits those that fail: the plan's stage `round` + 1 are the new
     /// samples to compare, that of the deepest those that are not compared.
     void examine(const SampleMaps& maps, const SubdivisionOptions& options);
+    /// Finds the bound of the finished tree's error.
+    void examineError(const SubdivisionOptions& options);
     void decide(const SampleMaps& maps, int round, const SubdivisionOptions& options);
 
     /// Writes the samples' weights and order. `cellShares`: the radiance over 34 x 34 cells of a textured
@@ -101,6 +104,7 @@ class SubdivisionPasses {
     };
 
     void decide(const SampleMaps& maps, int round, const SubdivisionOptions& options, bool isCoherent);
+    void prepareExamination(const SubdivisionOptions& options);
 
     gl::Program decide_, examine_, weigh_, illustrate_, illustrateQuads_;
     SampleLookup compare_;

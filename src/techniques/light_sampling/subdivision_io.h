@@ -27,12 +27,11 @@ struct Subdivision {
     uint leafRows[15];                     // of quads up to level 3 that are not split: see settled.glsl
     int decidedLevels;                     // quads of levels below are as they will stay
     uint reachedMaximum;                   // 1 where a quad was left whole for want of maps
-    uint errorEstimate;  // bits of the largest estimate of a pixel's error (see examine.comp.glsl)
-    uint errorBound;     // bits of the largest bound
+    uint errorBound;                       // bits of the largest of a pixel (see examine.comp.glsl)
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Subdivision) == 4 * (latticeVertices + 2 * splittableQuads + deepestLevel + 1 + 30));
+static_assert(sizeof(Subdivision) == 4 * (latticeVertices + 2 * splittableQuads + deepestLevel + 1 + 29));
 }  // namespace penumbra
 #endif
 #endif
