@@ -30,9 +30,9 @@ constexpr std::array<const char*, deepestLevel> failingCounts = {
     "failing fragments of level 0", "failing fragments of level 1", "failing fragments of level 2",
     "failing fragments of level 3"};
 
-/// The paper's test passes bands of three pixels (section 3.3.3: a different value in the 1-ring). Four points of
-/// a cell make them four times narrower; an error target takes more.
-constexpr float widestBand_px = 3;
+/// Points of a cell: they make bands as many times narrower. The paper's test passes bands of three pixels
+/// (section 3.3.3: a different value in the 1-ring), of which four make less than a pixel; an error target
+/// takes more.
 constexpr int tapsAgainstBands = 4;
 constexpr int tapsForError = 16;
 
@@ -82,7 +82,7 @@ void AdaptiveLightSampling::describe(ParameterVisitor& visitor) {
         weights_, weights);
     visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"},
                     mapSize_px_, {16, 16384});
-    visitor.boolean({.name = "smooth", .help = "filter where shadows of neighbouring samples lie visibly apart"},
+    visitor.boolean({.name = "smooth", .help = "filter between samples that disagree, as wide as their shadows lie apart"},
                     smooths_);
     visitor.boolean({.name = "reuse", .help = "keep maps and subdivision while nothing has changed"},
                     reuses_);
@@ -239,8 +239,7 @@ void AdaptiveLightSampling::evaluateStage(const Frame& frame, int stage, int mos
                          .starts = batch == 0,
                          .ends = batch == batches - 1,
                          .usesBits = stage == stageOfDeepest,
-                         .taps = stage == stageOfDeepest ? taps() : 0,
-                         .widest_px = options_.maxError > 0 ? 0 : widestBand_px},
+                         .taps = stage == stageOfDeepest ? taps() : 0},
                         frame.out);
     }
 }

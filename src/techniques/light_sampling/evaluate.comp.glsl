@@ -2,7 +2,7 @@
 #version 450
 // Sums what the receivers see of a batch's samples (equation 2, with weights). Variants of sample_test.glsl, and
 // COLORED, where the light is textured; BITS, where the comparison left the shadow values of coarse samples, and those
-// of the deepest level are looked up only where the corners of their quads disagree; SMOOTH, where bands between shadows are smoothed.
+// of the deepest level are looked up only where the corners of their quads disagree; SMOOTH, where samples that disagree are asked for their cells.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/common/view.glsl"
@@ -82,14 +82,13 @@ void main() {
         findUnsettled(comparison);
 #ifdef SMOOTH
         findBorder(comparison);
-        Bands bands = findBands(comparison, receiver, lookup, pixel);
-        for (int word = 0; word < 3; ++word) {
+        float nearness = meanNearness(comparison, lookup);
+        for (int word = 0; word < 3 && nearness > 0.0; ++word) {
             for (uint rest = comparison.border[word]; rest != 0u; rest &= rest - 1u) {
                 int vertex = vertexOf(word, findLSB(rest));
-                if (!isBanded(bands, vertex)) continue;
                 VALUE weight = countOf(samples[vertex], receiver) * WEIGHT(samples[vertex]);
                 float before = (comparison.shadows[word] & rest & -rest) == 0u ? 1.0 : 0.0;
-                seen += weight * (cellLit(bands, vertex, lookup) - before);
+                seen += weight * (cellLit(vertex, lookup, nearness) - before);
             }
         }
 #endif
@@ -112,8 +111,8 @@ void main() {
             }
 #endif
 #ifdef SMOOTH
-            if (isBanded(bands, vertex)) {
-                seen += weight * cellLit(bands, vertex, lookup);
+            if (nearness > 0.0) {
+                seen += weight * cellLit(vertex, lookup, nearness);
                 continue;
             }
 #endif

@@ -70,10 +70,7 @@ void SampleEvaluation::add(const ShadowInputs& inputs, const SampleCameras& came
     if (batch.usesBits) defines.push_back("BITS");
     if (batch.taps > 0) defines.push_back("SMOOTH");
     lookup_.use(inputs.light, cameras, options, std::move(defines));
-    if (batch.taps > 0) {
-        glUniform1i(17, batch.taps);
-        glUniform1f(18, batch.widest_px);
-    }
+    if (batch.taps > 0) glUniform1i(17, batch.taps);
     maps.bind();
     maps.setBatch(batch.stage, batch.batch);
     bindVisibility(out, 0);

@@ -49,8 +49,7 @@ class SampleEvaluation {
         int mostSlots = 1;                ///< it can hold
         bool starts = true, ends = true;  ///< the sum
         bool usesBits = false;  ///< all that was compared comes from shadow bits at texture unit 4
-        int taps = 0;           ///< of the filter where shadows lie apart, a power of two; 0: none
-        float widest_px = 0;    ///< distance between shadows that needs no filter
+        int taps = 0;  ///< of the filter between samples that disagree, a power of two; 0: none
     };
 
     /// Adds a batch to the sums. Expects the view to be bound.

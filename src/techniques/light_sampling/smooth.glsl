@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A filter where bands would show: where the shadows of neighbouring samples lie more than `widest_px` apart, a sample is
-// asked for its cell of the light instead of its point. The kernel is what the cell's points would see of the blockers:
-// it is as wide as the shadows are apart, so that they meet without a step and nothing is blurred further. How high the
-// blockers are, the samples in shadow know.
-layout(location = 17) uniform int taps;         // of the kernel, a power of two
-layout(location = 18) uniform float widest_px;  // distance between shadows that needs no filter
+// A filter between the shadows of neighbouring samples: where they disagree, a sample is asked for its cell of the light
+// instead of its point. The kernel is what the cell's points would see of the blockers: it is as wide as the shadows are
+// apart, so that they meet without a step and nothing is blurred further. How near the blockers are, the samples in shadow
+// know.
+layout(location = 17) uniform int taps;  // of the kernel, a power of two
 
-struct Bands {
-    float nearness;   // of the blockers, see blockerNearness; 0: no blocker
-    float perSpan_px; // distance in pixels of shadows of points one metre apart on the light, or one radian
-};
-
-Bands findBands(Comparison comparison, Receiver receiver, Lookup lookup, ivec2 pixel) {
+// The mean over samples in shadow that disagree with a neighbour, see blockerNearness; 0: there are none.
+float meanNearness(Comparison comparison, Lookup lookup) {
     float sum = 0.0;
     int blocked = 0;
     for (int word = 0; word < 3; ++word) {
@@ -21,26 +16,11 @@ Bands findBands(Comparison comparison, Receiver receiver, Lookup lookup, ivec2 p
             ++blocked;
         }
     }
-    if (blocked == 0) return Bands(0.0, 0.0);
-    float nearness = sum / float(blocked);
-    vec3 beside = positionLight(vec2(pixel) + vec2(1.0, 0.0), texelFetch(viewDepth, pixel, 0).r);
-    float pixel_m = distance(receiver.posLight, beside);
-#ifdef DISTANT
-    float perSpan_m = nearness;
-#else
-    float perSpan_m = nearness * lookup.pos.z;
-#endif
-    return Bands(nearness, pixel_m > 0.0 ? perSpan_m / pixel_m : 0.0);
-}
-
-bool isBanded(Bands bands, int vertex) {
-    LightSample light = samples[vertex];
-    float span = max(length(light.spanU.xyz), length(light.spanV.xyz));
-    return bands.nearness > 0.0 && light.normal.w * span * bands.perSpan_px > widest_px;
+    return blocked > 0 ? sum / float(blocked) : 0.0;
 }
 
 // Share of the sample's cell that the receiver sees, at the points of a Hammersley set.
-float cellLit(Bands bands, int vertex, Lookup lookup) {
+float cellLit(int vertex, Lookup lookup, float nearness) {
     LightSample light = samples[vertex];
     int layer = layerOf(subdivision.slotOfVertex[vertex]);
     float lit = 0.0;
@@ -48,7 +28,7 @@ float cellLit(Bands bands, int vertex, Lookup lookup) {
         vec2 at = vec2(float(i) / float(taps), float(bitfieldReverse(uint(i))) / 4294967296.0) + 0.5 / float(taps) - 0.5;
         at = light.normal.w * at + vec2(light.spanU.w, light.spanV.w);
         vec3 step = at.x * light.spanU.xyz + at.y * light.spanV.xyz;
-        lit += besideSampleLit(layer, lookup, light.place.xyz, step, bands.nearness);
+        lit += besideSampleLit(layer, lookup, light.place.xyz, step, nearness);
     }
     return lit / float(taps);
 }
