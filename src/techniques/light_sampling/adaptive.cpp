@@ -36,9 +36,9 @@ constexpr std::array<const char*, deepestLevel> failingCounts = {
 constexpr int tapsAgainstBands = 4;
 constexpr int tapsForError = 16;
 
-/// The error of a cell that an edge crosses, over its area, in the root mean square. Without a filter nothing is
-/// known of its lit part: all parts alike deviate by 1 / sqrt(12). With one, straight edges of all directions and
-/// places: the 16 points of the kernel against the area.
+/// The error of a cell that an edge crosses, over its area, in the root mean square. Without a filter nothing
+/// is known of its lit part: all parts alike deviate by 1 / sqrt(12). With one, straight edges of all
+/// directions and places: the 16 points of the kernel against the area.
 constexpr float errorOfUnknownCell = 0.289f;
 constexpr float errorOfSmoothedCell = 0.042f;
 
@@ -64,8 +64,8 @@ void AdaptiveLightSampling::describe(ParameterVisitor& visitor) {
     static constexpr std::array<std::string_view, 2> weights = {"area", "paper"};
     visitor.integer({.name = "max_samples", .help = "the most points of the light to draw maps from"},
                     options_.maxSamples, {1, latticeVertices});
-    visitor.integer({.name = "max_depth", .help = "the most times that the light is quartered"}, options_.maxDepth,
-                    {0, deepestLevel});
+    visitor.integer({.name = "max_depth", .help = "the most times that the light is quartered"},
+                    options_.maxDepth, {0, deepestLevel});
     visitor.integer(
         {.name = "min_depth", .help = "the least times that all of the light is quartered (the paper's: 0)"},
         options_.minDepth, {0, deepestLevel});
@@ -74,15 +74,17 @@ void AdaptiveLightSampling::describe(ParameterVisitor& visitor) {
         options_.tolerated, {0, 1 << 24});
     visitor.real({.name = "comparison_scale", .help = "side of the comparison target over that of the frame"},
                  comparisonScale_, {0.0625f, 1});
-    visitor.real({.name = "max_error",
-                  .help = "split until the bound of no pixel's error exceeds this; 0: the paper's test decides"},
-                 options_.maxError, {0, 1});
+    visitor.real(
+        {.name = "max_error",
+         .help = "split until the bound of no pixel's error exceeds this; 0: the paper's test decides"},
+        options_.maxError, {0, 1});
     visitor.choice(
         {.name = "weights", .help = "of samples: the area each stands for, or the paper's equation 3"},
         weights_, weights);
     visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"},
                     mapSize_px_, {16, 16384});
-    visitor.boolean({.name = "smooth", .help = "filter between samples that disagree, as wide as their shadows lie apart"},
+    visitor.boolean({.name = "smooth",
+                     .help = "filter between samples that disagree, as wide as their shadows lie apart"},
                     smooths_);
     visitor.boolean({.name = "reuse", .help = "keep maps and subdivision while nothing has changed"},
                     reuses_);
@@ -165,7 +167,8 @@ void AdaptiveLightSampling::subdivide(const Frame& frame) {
     // compare.
     treeOptions_ = options_;
     treeOptions_.cellError = taps() > 0 ? errorOfSmoothedCell : errorOfUnknownCell;
-    if (frame.inputs.light.shape == LightShape::sphere) treeOptions_.minDepth = std::max(2, options_.minDepth);
+    if (frame.inputs.light.shape == LightShape::sphere)
+        treeOptions_.minDepth = std::max(2, options_.minDepth);
     if (wasStatic_) {
         // Nothing changes, but the maps are asked again, in case the host's depth has.
         if (usesBits()) compare(frame, stageOfCoarse, 0, 0);

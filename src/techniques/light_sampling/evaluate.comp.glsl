@@ -2,7 +2,8 @@
 #version 450
 // Sums what the receivers see of a batch's samples (equation 2, with weights). Variants of sample_test.glsl, and
 // COLORED, where the light is textured; BITS, where the comparison left the shadow values of coarse samples, and those
-// of the deepest level are looked up only where the corners of their quads disagree; SMOOTH, where samples that disagree are asked for their cells.
+// of the deepest level are looked up only where the corners of their quads disagree; SMOOTH, where samples that
+// disagree are asked for their cells.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/common/view.glsl"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
-// Counts, for every quad whose corners are known and that is not decided yet, the fragments that fail the test. Atomic counters take the place of the
-// paper's occlusion queries: one pass instead of one query a quad, and the device reads the counts itself.
+// Counts, for every quad whose corners are known and that is not decided yet, the fragments that fail the test. Atomic
+// counters take the place of the paper's occlusion queries: one pass instead of one query a quad, and the device reads
+// the counts itself.
 layout(local_size_x = 16, local_size_y = 16) in;
 
 #include "src/techniques/light_sampling/subdivision_io.h"
@@ -17,14 +18,14 @@ layout(location = 1) uniform float maxError;  // 0: the paper's test decides
 layout(location = 2) uniform float cellError; // of what the corners of a quad say of it, over its area
 
 shared uint failing[splittableQuads];
-shared uint known[15];   // quads to count for: level l's rows from 2^l - 1 on, bit x the quad whose left edge is column x
+shared uint known[15];   // quads to count for: level l's rows from 2^l - 1 on, bit x: left edge in column x
 shared uint leaves[15];  // quads that are not split so far; << 16: of level 3, those that are
 shared uint largestError;
 
 // How wrong the sum may be: a quad whose corners disagree is lit in an unknown part of its area a, and what the corners
-// say of it is off by a times `cellError` in the root mean square. However the errors of quads depend on each other, that
-// of their sum is no more than the sum of theirs (Minkowski). Quads of the deepest level are not compared; an edge that
-// crosses a quad crosses three of its quarters at most, so that is what a quad split into them counts as.
+// say of it is off by a times `cellError` in the root mean square. However the errors of quads depend on each other,
+// that of their sum is no more than the sum of theirs (Minkowski). Quads of the deepest level are not compared; an edge
+// that crosses a quad crosses three of its quarters at most, so that is what a quad split into them counts as.
 float errorOf(uvec4 bits) {
     float error = 0.0;
     for (int l = 0; l <= min(subdivision.decidedLevels, 3); ++l) {

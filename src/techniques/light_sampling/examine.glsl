@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two-pass test (section 3.3.3, Figure 6) for a row of quads at once: bit x of a word is the quad whose left edge is
-// column x of the 9 x 9 bits. Includer declares `shadowBits`.
+// The two-pass test (section 3.3.3, Figure 6) for a row of quads at once: bit x of a word is the quad whose left edge
+// is column x of the 9 x 9 bits. Includer declares `shadowBits`.
 
 uint equal(Sums a, Sums b) { return ~((a.ones ^ b.ones) | (a.twos ^ b.twos) | (a.fours ^ b.fours)); }
 

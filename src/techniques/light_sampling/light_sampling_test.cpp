@@ -258,8 +258,8 @@ TEST_F(LightSamplingTest, ALightBehindOrInsideGeometryLeavesItsShadow) {
 }
 
 TEST_F(LightSamplingTest, BoundOfTheErrorIsKeptAndHolds) {
-    // Over the half-plane, where the truth is known and maps of 512 texels are finer than a pixel. Without the
-    // filter no 17 columns can be as near as 0.01; the bound says so.
+    // Over the half-plane, where the truth is known and maps of 512 texels are finer than a pixel. Without
+    // the filter no 17 columns can be as near as 0.01; the bound says so.
     const Scene scene = halfPlaneFromAbove();
     const LightResult result = render("adaptive", scene, size, {{"max_error", "0.01"}});
     EXPECT_GT(count(result, "bound of the error"), 0);

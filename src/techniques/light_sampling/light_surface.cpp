@@ -119,7 +119,10 @@ LightSample LightSurface::spherePoint(const glm::dvec2& disk) const {
     const glm::dvec2 around = radius > 0 ? glm::normalize(disk) : glm::dvec2(1, 0);
     const glm::dvec3 normal = std::cos(t) * axis_ + std::sin(t) * (around.x * across_ + around.y * along_);
     return {glm::vec4(glm::vec3(double(light_.radius_m) * normal), 1 / std::max(density, 1e-3)),
-            glm::vec4(glm::vec3(normal), 0), glm::vec4(1), {}, {}};
+            glm::vec4(glm::vec3(normal), 0),
+            glm::vec4(1),
+            {},
+            {}};
 }
 
 std::vector<glm::dvec3> LightSurface::bounds() const {

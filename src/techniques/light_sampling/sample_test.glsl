@@ -85,10 +85,10 @@ float texelLit(int layer, LayerTap tap, vec3 pos, vec3 normal, float across, vec
 }
 
 #if !defined(CUBE)
-// What a sample's map tells of its surroundings on the light. A blocker at some depth between receiver and light is seen
-// from a place that lies `step` beside the sample where the line from there to the receiver passes its depth: so the map
-// is asked there. `nearness` says how near to the light the blocker is: 1 / depth, less that of the receiver, or for
-// distant lights the depth between the two. Depths are those in the map.
+// What a sample's map tells of its surroundings on the light. A blocker at some depth between receiver and light is
+// seen from a place that lies `step` beside the sample where the line from there to the receiver passes its depth: so
+// the map is asked there. `nearness` says how near to the light the blocker is: 1 / depth, less that of the receiver,
+// or for distant lights the depth between the two. Depths are those in the map.
 float blockerNearness(int layer, Lookup lookup) {
     LayerTap tap = layerTaps[layer];
     vec3 pos = lookup.pos;

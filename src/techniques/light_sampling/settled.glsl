@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the comparison of coarse samples settles for a pixel. Where the four corners of a quad of level 3 agree, the test
-// has nothing to object to the quad in this pixel, and the samples that others made necessary within it would agree, too:
-// they need no look-up. Includer declares `shadowBits`, `subdivision` and `samples`.
+// What the comparison of coarse samples settles for a pixel. Where the four corners of a quad of level 3 agree, the
+// test has nothing to object to the quad in this pixel, and the samples that others made necessary within it would
+// agree, too: they need no look-up. Includer declares `shadowBits`, `subdivision` and `samples`.
 struct Comparison {
     uvec4 shadows;    // bits as in lattice_bits.glsl, of vertices in the tree
     uvec4 tree;       // which vertices these are

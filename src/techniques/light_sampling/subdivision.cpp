@@ -45,7 +45,8 @@ int SubdivisionOptions::baseDepth() const {
 
 int SubdivisionOptions::mostSlots(int round) const {
     const int depth = baseDepth() + round;
-    return std::min(maxSamples, round == 0 ? latticeSize(depth) : latticeSize(depth) - latticeSize(depth - 1));
+    return std::min(maxSamples,
+                    round == 0 ? latticeSize(depth) : latticeSize(depth) - latticeSize(depth - 1));
 }
 
 int SubdivisionOptions::mostSlotsInAll() const {

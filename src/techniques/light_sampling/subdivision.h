@@ -17,8 +17,8 @@ struct SubdivisionOptions {
     int maxSamples = latticeVertices;  ///< at least 4
     int minDepth = 1;                  ///< every quad above it is split
     int maxDepth = deepestLevel;
-    int tolerated = 0;   ///< failing fragments that do not yet split a quad
-    float maxError = 0;  ///< 0: the paper's test; else split until the bound of the error is below
+    int tolerated = 0;    ///< failing fragments that do not yet split a quad
+    float maxError = 0;   ///< 0: the paper's test; else split until the bound of the error is below
     float cellError = 0;  ///< of a quad whose corners disagree, over its area
 
     /// Down to which the tree is split at its start: what minDepth asks for, as far as the samples allow.
