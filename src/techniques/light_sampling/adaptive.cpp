@@ -122,6 +122,7 @@ void AdaptiveLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer&
     const bool isKnown = appendInputs(key_, inputs);
     appendBytes(key_, options_);
     appendBytes(key_, comparisonScale_);
+    appendBytes(key_, smooths_);  // an error target's tree depends on it
     appendBytes(key_, mapSize_px_);
     wasStatic_ = reuses_ && isKnown && key_ == lastKey_ && maps_.isResident();
     lastKey_.clear();  // until the frame is complete

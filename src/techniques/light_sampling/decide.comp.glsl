@@ -94,13 +94,14 @@ void main() {
         if (index == 0) startTree();
         return;
     }
+    int firstLevel = subdivision.decidedLevels;
+    if (firstLevel == maxDepth) return;  // an earlier round has decided all
     for (int i = index; i < latticeVertices; i += 64) {
         slotOfVertex[i] = subdivision.slotOfVertex[i];
         BitPlace place = bitPlace(i);
         isInTree[i] = isCoarse(i) && (subdivision.coarseVertices[place.word] & place.mask) != 0u;
     }
     if (index == 0) goesOn = true;
-    int firstLevel = subdivision.decidedLevels;
     int first = plan.stages[stageOfAll].y;
     int slots = first;
     barrier();

@@ -242,6 +242,17 @@ TEST_F(LightSamplingTest, TreesGrowAndShrinkToThoseOfAFreshStart) {
         most = std::max(most, count(fresh, "samples"));
     }
     EXPECT_LT(fewest, most);  // else nothing was tested
+
+    // With samples of the deepest level, too, which are found anew each time.
+    const std::unique_ptr<Technique> again = workbench().makeTechnique("adaptive");
+    setParameter(*again, "map_size", "128");
+    setParameter(*again, "reuse", "false");
+    constexpr PictureSize larger{320, 180};
+    const Scene still = makeBuiltin("primitives");
+    const LightResult first = render(*again, still, larger);
+    EXPECT_GT(count(first, "samples of level 4"), 0);
+    const LightResult second = render(*again, still, larger);
+    EXPECT_EQ(first.visibility.values, second.visibility.values);
 }
 
 TEST_F(LightSamplingTest, ALightBehindOrInsideGeometryLeavesItsShadow) {
