@@ -11,15 +11,16 @@
 namespace penumbra {
 namespace {
 
-constexpr std::array<const char*, deepestLevel + 1> mapPasses = {
-    "adaptive/maps of level 0", "adaptive/maps of level 1", "adaptive/maps of level 2",
-    "adaptive/maps of level 3", "adaptive/maps of level 4"};
-constexpr std::array<const char*, deepestLevel> comparisonPasses = {
-    "adaptive/comparison of level 0", "adaptive/comparison of level 1", "adaptive/comparison of level 2",
-    "adaptive/comparison of level 3"};
-constexpr std::array<const char*, deepestLevel> decisionPasses = {
-    "adaptive/decision of level 0", "adaptive/decision of level 1", "adaptive/decision of level 2",
-    "adaptive/decision of level 3"};
+constexpr std::array<const char*, mostRounds> mapPasses = {
+    "adaptive/maps of round 0", "adaptive/maps of round 1", "adaptive/maps of round 2",
+    "adaptive/maps of round 3"};
+constexpr std::array<const char*, mostRounds> comparisonPasses = {
+    "adaptive/comparison of round 0", "adaptive/comparison of round 1", "adaptive/comparison of round 2",
+    "adaptive/comparison of round 3"};
+constexpr std::array<const char*, mostRounds> decisionPasses = {
+    "adaptive/decision of round 0", "adaptive/decision of round 1", "adaptive/decision of round 2",
+    "adaptive/decision of round 3"};
+constexpr const char* lastMapsPass = "adaptive/maps of the last round";
 constexpr std::array<const char*, deepestLevel + 1> sampleCounts = {
     "samples of level 0", "samples of level 1", "samples of level 2", "samples of level 3",
     "samples of level 4"};
@@ -28,6 +29,18 @@ constexpr std::array<const char*, deepestLevel> splitCounts = {
 constexpr std::array<const char*, deepestLevel> failingCounts = {
     "failing fragments of level 0", "failing fragments of level 1", "failing fragments of level 2",
     "failing fragments of level 3"};
+
+/// Points of a cell: they make bands as many times narrower. The paper's test passes bands of three pixels
+/// (section 3.3.3: a different value in the 1-ring), of which four make less than a pixel; an error target
+/// takes more.
+constexpr int tapsAgainstBands = 4;
+constexpr int tapsForError = 16;
+
+/// The error of a cell that an edge crosses, over its area, in the root mean square. Without a filter nothing
+/// is known of its lit part: all parts alike deviate by 1 / sqrt(12). With one, straight edges of all
+/// directions and places: the 16 points of the kernel against the area.
+constexpr float errorOfUnknownCell = 0.289f;
+constexpr float errorOfSmoothedCell = 0.042f;
 
 constexpr int cellsPerSide = 34;  // see lattice_weights.comp.glsl
 
@@ -51,8 +64,8 @@ void AdaptiveLightSampling::describe(ParameterVisitor& visitor) {
     static constexpr std::array<std::string_view, 2> weights = {"area", "paper"};
     visitor.integer({.name = "max_samples", .help = "the most points of the light to draw maps from"},
                     options_.maxSamples, {1, latticeVertices});
-    visitor.integer({.name = "max_depth", .help = "the most times that the light is quartered"}, maxDepth_,
-                    {0, deepestLevel});
+    visitor.integer({.name = "max_depth", .help = "the most times that the light is quartered"},
+                    options_.maxDepth, {0, deepestLevel});
     visitor.integer(
         {.name = "min_depth", .help = "the least times that all of the light is quartered (the paper's: 0)"},
         options_.minDepth, {0, deepestLevel});
@@ -61,14 +74,18 @@ void AdaptiveLightSampling::describe(ParameterVisitor& visitor) {
         options_.tolerated, {0, 1 << 24});
     visitor.real({.name = "comparison_scale", .help = "side of the comparison target over that of the frame"},
                  comparisonScale_, {0.0625f, 1});
-    visitor.real({.name = "max_error",
-                  .help = "split until no pixel's estimated error exceeds this; 0: the paper's test decides"},
-                 options_.maxError, {0, 1});
+    visitor.real(
+        {.name = "max_error",
+         .help = "split until the bound of no pixel's error exceeds this; 0: the paper's test decides"},
+        options_.maxError, {0, 1});
     visitor.choice(
         {.name = "weights", .help = "of samples: the area each stands for, or the paper's equation 3"},
         weights_, weights);
     visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"},
                     mapSize_px_, {16, 16384});
+    visitor.boolean({.name = "smooth",
+                     .help = "filter between samples that disagree, as wide as their shadows lie apart"},
+                    smooths_);
     visitor.boolean({.name = "reuse", .help = "keep maps and subdivision while nothing has changed"},
                     reuses_);
     evaluationOptions_.describe(visitor);
@@ -79,6 +96,11 @@ bool AdaptiveLightSampling::usesBits() const {
            evaluationOptions_.path == EvaluationOptions::array;
 }
 
+int AdaptiveLightSampling::taps() const {
+    if (!smooths_ || !usesBits() || !maps_.isResident() || cameras_.isCube) return 0;
+    return options_.maxError > 0 ? tapsForError : tapsAgainstBands;
+}
+
 void AdaptiveLightSampling::chooseSamples(const LightSurface& surface) {
     samples_.clear();
     isCenterAlone_ = surface.isPoint() || options_.maxSamples < 4;
@@ -87,7 +109,7 @@ void AdaptiveLightSampling::chooseSamples(const LightSurface& surface) {
         return;
     }
     for (const PatternPoint& point : makePattern(SamplePattern::cells, latticeSide, 0, false)) {
-        samples_.push_back(surface.sample(point.square));
+        samples_.push_back(surface.sampleWithSpans(point.square, 1.0 / latticeSide));
     }
 }
 
@@ -99,8 +121,8 @@ void AdaptiveLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer&
     key_.clear();
     const bool isKnown = appendInputs(key_, inputs);
     appendBytes(key_, options_);
-    appendBytes(key_, maxDepth_);
     appendBytes(key_, comparisonScale_);
+    appendBytes(key_, smooths_);  // an error target's tree depends on it
     appendBytes(key_, mapSize_px_);
     wasStatic_ = reuses_ && isKnown && key_ == lastKey_ && maps_.isResident();
     lastKey_.clear();  // until the frame is complete
@@ -112,7 +134,7 @@ void AdaptiveLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer&
         const int mapSize_px = mapSizeFor(surface, mapSize_px_);
         cameras_.fit(inputs.light, surface, samples_, scene, mapSize_px);
         maps_.prepare(inputs.casters, scene, samples_, cameras_, mapSize_px,
-                      isCenterAlone_ ? 1 : options_.maxSamples);
+                      isCenterAlone_ ? 1 : options_.mostSlotsInAll());
     }
     if (isCenterAlone_ || cameras_.faces == 0) {
         renderCenterAlone(frame);
@@ -126,11 +148,9 @@ void AdaptiveLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer&
 }
 
 void AdaptiveLightSampling::renderCenterAlone(const Frame& frame) {
-    SamplingPlan plan{};
-    for (glm::ivec4& stage : plan.stages) stage = {0, 1, 0, 0};
-    constexpr std::array slots = {0};
-    maps_.writePlan(plan, slots);
+    maps_.planAll();
     isCenterAlone_ = true;
+    lastTreeOptions_.reset();
     if (frame.inputs.light.radianceTexture != 0) {
         const auto pass = timers_.pass("adaptive/weights");
         constexpr std::array whole = {glm::vec4(0, 0, 1, 1)};
@@ -146,33 +166,40 @@ void AdaptiveLightSampling::subdivide(const Frame& frame) {
     subdivision_.prepare(scaled(frame.out.width_px()), scaled(frame.out.height_px()));
     // The square's rim is the far side of a sphere, where its corners fall together: they have nothing to
     // compare.
-    SubdivisionOptions options = options_;
-    if (frame.inputs.light.shape == LightShape::sphere) options.minDepth = std::max(2, options.minDepth);
-    if (!wasStatic_) subdivision_.start(maps_, options);
-    for (int level = 0; level < maxDepth_; ++level) {
-        // A static frame asks the maps again, in case the host's depth has changed, but changes nothing else.
-        if (!wasStatic_ || usesBits()) compareLevel(frame, level);
-        if (wasStatic_) continue;
-        const auto pass = timers_.pass(decisionPasses[std::size_t(level)]);
-        subdivision_.examine(level, options);
-        subdivision_.decide(maps_, level, options);
+    treeOptions_ = options_;
+    treeOptions_.cellError = taps() > 0 ? errorOfSmoothedCell : errorOfUnknownCell;
+    if (frame.inputs.light.shape == LightShape::sphere)
+        treeOptions_.minDepth = std::max(2, options_.minDepth);
+    if (wasStatic_) {
+        // Nothing changes, but the maps are asked again, in case the host's depth has.
+        if (usesBits()) compare(frame, stageOfCoarse, 0, 0);
+        return;
     }
-    if (!wasStatic_ && options_.maxError > 0 && maxDepth_ == deepestLevel) {
-        subdivision_.examine(deepestLevel, options_);
+    // Slots that are in no order of the tree's would change the order of sums where no bits hold the values.
+    const bool isCoherent = usesBits() && maps_.isResident() && lastTreeOptions_ == treeOptions_;
+    lastTreeOptions_ = treeOptions_;
+    subdivision_.start(maps_, treeOptions_, isCoherent);
+    for (int round = 0; round < treeOptions_.rounds(); ++round) {
+        for (int batch = 0; batch < maps_.batches(treeOptions_.mostSlots(round)); ++batch) {
+            {
+                const auto pass = timers_.pass(mapPasses[std::size_t(round)]);
+                maps_.draw(round, batch);
+            }
+            compare(frame, round, batch, round);
+        }
+        const auto pass = timers_.pass(decisionPasses[std::size_t(round)]);
+        subdivision_.examine(maps_, treeOptions_);
+        subdivision_.decide(maps_, round, treeOptions_);
+    }
+    if (treeOptions_.maxError > 0 && treeOptions_.maxDepth == deepestLevel) {
+        subdivision_.examineError(treeOptions_);
     }
 }
 
-void AdaptiveLightSampling::compareLevel(const Frame& frame, int level) {
-    const int mostSlots = std::min(SubdivisionPasses::mostSlots[std::size_t(level)], options_.maxSamples);
-    for (int batch = 0; batch < maps_.batches(mostSlots); ++batch) {
-        if (!wasStatic_) {
-            const auto pass = timers_.pass(mapPasses[std::size_t(level)]);
-            maps_.draw(level, batch);
-        }
-        const auto pass = timers_.pass(comparisonPasses[std::size_t(level)]);
-        view_.bind(frame.inputs.view, frame.lightFromWorld);
-        subdivision_.compare(frame.inputs, cameras_, maps_, level, batch, level == 0 && batch == 0);
-    }
+void AdaptiveLightSampling::compare(const Frame& frame, int stage, int batch, int round) {
+    const auto pass = timers_.pass(comparisonPasses[std::size_t(round)]);
+    view_.bind(frame.inputs.view, frame.lightFromWorld);
+    subdivision_.compare(frame.inputs, cameras_, maps_, treeOptions_, stage, batch);
 }
 
 void AdaptiveLightSampling::weigh(const Frame& frame) {
@@ -183,17 +210,15 @@ void AdaptiveLightSampling::weigh(const Frame& frame) {
 }
 
 void AdaptiveLightSampling::evaluate(const Frame& frame) {
-    const int deepestSlots =
-        std::min(SubdivisionPasses::mostSlots[std::size_t(maxDepth_)], options_.maxSamples);
+    const int deepestSlots = treeOptions_.mostSlots(treeOptions_.rounds());
     if (usesBits()) {
-        subdivision_.bindBits(4);
-        evaluateStage(frame, maxDepth_, deepestSlots, !wasStatic_);
+        evaluateStage(frame, stageOfDeepest, deepestSlots, !wasStatic_);
         return;
     }
     if (maps_.isResident()) {
         if (!wasStatic_) {
-            const auto pass = timers_.pass(mapPasses[std::size_t(maxDepth_)]);
-            maps_.draw(maxDepth_, 0);
+            const auto pass = timers_.pass(lastMapsPass);
+            maps_.draw(stageOfDeepest, 0);
         }
         evaluateStage(frame, stageOfAll, options_.maxSamples, false);
         return;
@@ -205,18 +230,20 @@ void AdaptiveLightSampling::evaluateStage(const Frame& frame, int stage, int mos
     const int batches = maps_.batches(mostSlots);
     for (int batch = 0; batch < batches; ++batch) {
         if (draws) {
-            const auto pass = timers_.pass(mapPasses[std::size_t(std::min(stage, deepestLevel))]);
+            const auto pass = timers_.pass(lastMapsPass);
             maps_.draw(stage, batch);
         }
         const auto pass = timers_.pass("adaptive/evaluation");
         view_.bind(frame.inputs.view, frame.lightFromWorld);
+        if (stage == stageOfDeepest) subdivision_.bind(4, 5);
         evaluation_.add(frame.inputs, cameras_, evaluationOptions_, maps_,
                         {.stage = stage,
                          .batch = batch,
                          .mostSlots = std::min(maps_.capacity(), mostSlots),
                          .starts = batch == 0,
                          .ends = batch == batches - 1,
-                         .usesBits = usesBits() && stage != stageOfAll},
+                         .usesBits = stage == stageOfDeepest,
+                         .taps = stage == stageOfDeepest ? taps() : 0},
                         frame.out);
     }
 }
@@ -240,8 +267,9 @@ Statistics AdaptiveLightSampling::statistics() const {
     const std::optional<SubdivisionPasses::Snapshot> latest = subdivision_.latest();
     if (!latest) return statistics;
     const auto& [tree, plan] = *latest;
-    const double samples = plan.stages[stageOfAll].y;
-    statistics.counts = {{"maps", samples * cameras_.faces},
+    double samples = 0;
+    for (const glm::uint ofLevel : tree.samplesOfLevel) samples += ofLevel;
+    statistics.counts = {{"maps", double(plan.stages[stageOfAll].y) * cameras_.faces},
                          {"samples", samples},
                          {"reached the maximum", double(tree.reachedMaximum)},
                          {"reused", double(wasStatic_)}};
@@ -252,13 +280,12 @@ Statistics AdaptiveLightSampling::statistics() const {
             split += tree.split[quad];
             failing += tree.failing[quad];
         }
-        statistics.counts.push_back({sampleCounts[level], double(plan.stages[level].y)});
+        statistics.counts.push_back({sampleCounts[level], double(tree.samplesOfLevel[level])});
         statistics.counts.push_back({splitCounts[level], split});
         statistics.counts.push_back({failingCounts[level], failing, "fragments"});
     }
-    statistics.counts.push_back({sampleCounts[deepestLevel], double(plan.stages[deepestLevel].y)});
+    statistics.counts.push_back({sampleCounts[deepestLevel], double(tree.samplesOfLevel[deepestLevel])});
     if (options_.maxError > 0) {
-        statistics.counts.push_back({"estimated error", double(std::bit_cast<float>(tree.errorEstimate))});
         statistics.counts.push_back({"bound of the error", double(std::bit_cast<float>(tree.errorBound))});
     }
     return statistics;

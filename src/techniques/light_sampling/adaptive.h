@@ -5,6 +5,7 @@
 // 17 x 17 samples.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "penumbra/technique.h"
@@ -32,20 +33,23 @@ class AdaptiveLightSampling final : public Technique {
     };
 
     bool usesBits() const;
+    int taps() const;
     void chooseSamples(const LightSurface& surface);
     void renderCenterAlone(const Frame& frame);
     void subdivide(const Frame& frame);
-    void compareLevel(const Frame& frame, int level);
+    void compare(const Frame& frame, int stage, int batch, int round);
     void weigh(const Frame& frame);
     void evaluate(const Frame& frame);
     void evaluateStage(const Frame& frame, int stage, int mostSlots, bool draws);
 
     SubdivisionOptions options_;
-    int maxDepth_ = deepestLevel;
+    SubdivisionOptions treeOptions_;  // what of them holds for the light at hand
+    std::optional<SubdivisionOptions> lastTreeOptions_;
     float comparisonScale_ = 1;
     int weights_ = 0;
     int mapSize_px_ = 512;
     bool reuses_ = true;
+    bool smooths_ = true;
     EvaluationOptions evaluationOptions_;
 
     std::vector<LightSample> samples_;

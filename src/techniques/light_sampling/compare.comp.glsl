@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
-// Reprojection (section 3.3.2): the shadow values of a level's new samples, for each fragment of the comparison target.
+// Reprojection (section 3.3.2): the shadow values of a round's new samples, for each fragment of the comparison target.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/common/view.glsl"
@@ -11,21 +11,30 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0, rgba32ui) uniform uimage2D shadowBits;
 layout(location = 16) uniform ivec2 target_px;
 layout(location = 17) uniform bool starts;
+layout(location = 18) uniform int baseDepth;  // of the tree at its start
+
+bool isBase(int vertex) {
+    int step = 16 >> baseDepth;
+    return (vertex % latticeSide) % step == 0 && (vertex / latticeSide) % step == 0;
+}
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, target_px))) return;
     ivec2 pixel = ivec2((vec2(texel) + 0.5) * vec2(view.size_px.xy) / vec2(target_px));
     uint words[3] = uint[3](0u, 0u, 0u);
+    bool isBaseShadowed = false;
     if (!starts) {
         uvec4 before = imageLoad(shadowBits, texel);
         words = uint[3](before.x, before.y, before.z);
+        isBaseShadowed = before.w != 0u;
     }
     Receiver receiver;
     if (loadReceiver(pixel, receiver) && !isBehindLight(receiver)) {
         Lookup lookup = makeLookup(receiver);
-        // A sample that does not count for this receiver shall make no difference: it goes with the shadow if there is
-        // any, so that neither full light nor full shadow looks like a penumbra.
+        // A sample that does not count for this receiver shall make no difference: it goes with the shadow if the
+        // vertices that every tree starts with see any, so that neither full light nor full shadow looks like a
+        // penumbra.
         uint without[3] = uint[3](0u, 0u, 0u);
         int first = firstSlot();
         int end = slotCount();
@@ -36,11 +45,10 @@ void main() {
                 without[place.word] |= place.mask;
             } else if (sampleLit(layerOf(first + i), lookup) < 0.5) {
                 words[place.word] |= place.mask;
+                if (isBase(vertex)) isBaseShadowed = true;
             }
         }
-        if ((words[0] | words[1] | words[2]) != 0u) {
-            for (int i = 0; i < 3; ++i) words[i] |= without[i];
-        }
+        for (int i = 0; i < 3 && isBaseShadowed; ++i) words[i] |= without[i];
     }
-    imageStore(shadowBits, texel, uvec4(words[0], words[1], words[2], 0u));
+    imageStore(shadowBits, texel, uvec4(words[0], words[1], words[2], isBaseShadowed));
 }

@@ -1,95 +1,173 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
-// Splits quads and gives the new corners slots (section 3.3.4), for a whole level, on the device: nothing waits.
-// One group. Level -1 starts the tree with its four corners.
+// Splits quads and gives the new corners slots (section 3.3.4), on the device: nothing waits. One group.
+//
+// A round draws and compares maps for all slots that are new, and then decides level after level as far as the corners
+// of all quads are known. The first round starts with the vertices that the last frame's tree had up to level 3 (the
+// future work of section 5), so that a tree which changes little is decided in one round. Decisions look at quads and
+// their corners alone: which tree comes out does not depend on which vertices were at hand.
 layout(local_size_x = 64) in;
 
 #include "src/techniques/light_sampling/sampling_io.h"
 #include "src/techniques/light_sampling/subdivision_io.h"
+#include "src/techniques/light_sampling/lattice_bits.glsl"
 
 layout(std430, binding = 0) buffer SubdivisionBlock { Subdivision subdivision; };
 layout(std430, binding = 1) buffer Plan { SamplingPlan plan; };
 layout(std430, binding = 2) buffer Slots { int sampleOfSlot[]; };
 #include "src/techniques/light_sampling/subdivision.glsl"
 
-layout(location = 0) uniform int level;
+layout(location = 0) uniform int round;       // -1: starts the tree
 layout(location = 1) uniform int maxSamples;
 layout(location = 2) uniform uint tolerated;  // failing fragments
 layout(location = 3) uniform int minDepth;    // every quad above it is split
+layout(location = 4) uniform int maxDepth;
+layout(location = 5) uniform int baseDepth;   // to which the tree is split at the start
+layout(location = 6) uniform bool isCoherent; // the last frame's tree is there to start from
+layout(location = 7) uniform bool isOneLevelARound;
+layout(location = 8) uniform ivec2 target_px; // of the comparison
 
 shared uint wish[64];
 shared int ranked[64];
 shared int slotOfVertex[latticeVertices];
+shared bool isInTree[latticeVertices];
+shared bool goesOn;
 
 int vertexAt(ivec2 place) { return place.y * latticeSide + place.x; }
 
+bool isCoarse(int vertex) { return (vertex % latticeSide) % 2 == 0 && (vertex / latticeSide) % 2 == 0; }
+
+bool isBase(int vertex) {
+    int step = 16 >> baseDepth;
+    return (vertex % latticeSide) % step == 0 && (vertex / latticeSide) % step == 0;
+}
+
+bool isInLastTree(int vertex) {
+    if (!isCoherent || !isCoarse(vertex)) return false;
+    BitPlace place = bitPlace(vertex);
+    return (subdivision.coarseVertices[place.word] & place.mask) != 0u;
+}
+
+void setGroups(bool any) {
+    plan.compareGroups = any ? uvec4((target_px + 7) / 8, 1, 0) : uvec4(0u);
+    plan.examineGroups = any ? uvec4((target_px + 15) / 16, 1, 0) : uvec4(0u);
+}
+
+void startTree() {
+    bool compares = baseDepth < maxDepth;
+    int slots = 0;
+    uint coarse[3] = uint[3](0u, 0u, 0u);
+    for (int vertex = 0; vertex < latticeVertices; ++vertex) {
+        bool starts = isBase(vertex);
+        if (starts && compares) {
+            BitPlace place = bitPlace(vertex);
+            coarse[place.word] |= place.mask;
+        }
+        subdivision.slotOfVertex[vertex] = -1;
+        if (!starts && !isInLastTree(vertex)) continue;
+        sampleOfSlot[slots] = vertex;
+        subdivision.slotOfVertex[vertex] = slots++;
+    }
+    for (int i = 0; i < splittableQuads; ++i) {
+        subdivision.failing[i] = 0u;
+        subdivision.split[i] = i < quadIndex(baseDepth, ivec2(0)) ? 1u : 0u;
+    }
+    int before = 0;
+    for (int level = 0; level <= deepestLevel; ++level) {
+        int side = (1 << level) + 1;
+        subdivision.samplesOfLevel[level] = level <= baseDepth ? uint(side * side - before) : 0u;
+        before = side * side;
+    }
+    subdivision.coarseVertices = coarse;
+    for (int y = 0; y < 8; ++y) subdivision.deepestRows[y] = 0u;
+    subdivision.decidedLevels = baseDepth;
+    subdivision.reachedMaximum = subdivision.errorBound = 0u;
+    for (int i = 0; i < maxStages; ++i) plan.stages[i] = ivec4(slots, 0, 0, 0);
+    plan.stages[stageOfAll] = plan.stages[compares ? 0 : stageOfDeepest] = ivec4(0, slots, 0, 0);
+    if (compares) plan.stages[stageOfCoarse] = plan.stages[0];
+    setGroups(true);
+}
+
 void main() {
     int index = int(gl_LocalInvocationIndex);
-    if (level < 0) {
-        for (int i = index; i < latticeVertices; i += 64) subdivision.slotOfVertex[i] = -1;
-        for (int i = index; i < splittableQuads; i += 64) {
-            subdivision.failing[i] = 0u;
-            subdivision.split[i] = 0u;
-        }
-        barrier();
-        memoryBarrierBuffer();
-        if (index == 0) {
-            for (int corner = 0; corner < 4; ++corner) {
-                int vertex = vertexAt(16 * ivec2(corner & 1, corner >> 1));
-                sampleOfSlot[corner] = vertex;
-                subdivision.slotOfVertex[vertex] = corner;
-            }
-            for (int i = 0; i < maxStages; ++i) plan.stages[i] = ivec4(4, 0, 0, 0);
-            plan.stages[0] = plan.stages[stageOfAll] = ivec4(0, 4, 0, 0);
-            subdivision.reachedMaximum = 0u;
-            subdivision.errorEstimate = subdivision.errorBound = 0u;
-        }
+    if (round < 0) {
+        if (index == 0) startTree();
         return;
     }
-
-    // Quads in the order of need: if samples run out, they went where most fragments fail.
-    int side = 1 << level;
-    bool isQuad = index < side * side;
-    ivec2 quad = ivec2(index % side, index / side);
-    uint count = isQuad ? subdivision.failing[quadIndex(level, quad)] : 0u;
-    bool wants = count > tolerated || level < minDepth;
-    wish[index] = isQuad && quadExists(level, quad) && wants ? count + 1u : 0u;
-    ranked[index] = -1;
-    for (int i = index; i < latticeVertices; i += 64) slotOfVertex[i] = subdivision.slotOfVertex[i];
-    barrier();
-    int rank = 0;
-    for (int i = 0; i < 64; ++i) {
-        rank += int(wish[i] > wish[index] || (wish[i] == wish[index] && i < index));
+    int firstLevel = subdivision.decidedLevels;
+    if (firstLevel == maxDepth) return;  // an earlier round has decided all
+    for (int i = index; i < latticeVertices; i += 64) {
+        slotOfVertex[i] = subdivision.slotOfVertex[i];
+        BitPlace place = bitPlace(i);
+        isInTree[i] = isCoarse(i) && (subdivision.coarseVertices[place.word] & place.mask) != 0u;
     }
-    if (wish[index] > 0u) ranked[rank] = index;
-    barrier();
-    if (index != 0) return;
-
+    if (index == 0) goesOn = true;
     int first = plan.stages[stageOfAll].y;
     int slots = first;
-    int halfSide = 8 >> level;
-    for (int i = 0; i < 64 && ranked[i] >= 0; ++i) {
-        quad = ivec2(ranked[i] % side, ranked[i] / side);
-        const ivec2 steps[5] = ivec2[5](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(2, 1), ivec2(1, 2));
-        int needed = 0;
-        for (int j = 0; j < 5; ++j) {
-            needed += int(slotOfVertex[vertexAt(2 * halfSide * quad + halfSide * steps[j])] < 0);
+    barrier();
+    for (int level = firstLevel; level < maxDepth; ++level) {
+        // Quads in the order of need: if samples run out, they went where most fragments fail.
+        int side = 1 << level;
+        bool isQuad = goesOn && index < side * side;
+        ivec2 quad = ivec2(index % side, index / side);
+        uint count = isQuad ? subdivision.failing[quadIndex(level, quad)] : 0u;
+        bool wants = count > tolerated || level < minDepth;
+        wish[index] = isQuad && quadExists(level, quad) && wants ? count + 1u : 0u;
+        ranked[index] = -1;
+        barrier();
+        int rank = 0;
+        for (int i = 0; i < 64; ++i) {
+            rank += int(wish[i] > wish[index] || (wish[i] == wish[index] && i < index));
         }
-        if (slots + needed > maxSamples) {
-            subdivision.reachedMaximum = 1u;
-            continue;
+        if (wish[index] > 0u) ranked[rank] = index;
+        barrier();
+        if (index == 0 && goesOn) {
+            int used = 0;
+            for (int i = 0; i <= deepestLevel; ++i) used += int(subdivision.samplesOfLevel[i]);
+            int halfSide = 8 >> level;
+            int slotsBefore = slots;
+            for (int i = 0; i < 64 && ranked[i] >= 0; ++i) {
+                ivec2 place = 2 * halfSide * ivec2(ranked[i] % side, ranked[i] / side);
+                const ivec2 steps[5] = ivec2[5](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(2, 1), ivec2(1, 2));
+                int needed = 0;
+                for (int j = 0; j < 5; ++j) needed += int(!isInTree[vertexAt(place + halfSide * steps[j])]);
+                if (used + needed > maxSamples) {
+                    subdivision.reachedMaximum = 1u;
+                    continue;
+                }
+                subdivision.split[quadIndex(level, place / (2 * halfSide))] = 1u;
+                if (level == 3) subdivision.deepestRows[place.y / 2] |= 1u << (place.x / 2);
+                used += needed;
+                subdivision.samplesOfLevel[level + 1] += uint(needed);
+                for (int j = 0; j < 5; ++j) {
+                    int vertex = vertexAt(place + halfSide * steps[j]);
+                    if (isInTree[vertex]) continue;
+                    isInTree[vertex] = true;
+                    if (level + 1 < maxDepth) {  // else nothing compares it
+                        BitPlace bit = bitPlace(vertex);
+                        subdivision.coarseVertices[bit.word] |= bit.mask;
+                    }
+                    if (slotOfVertex[vertex] >= 0) continue;
+                    slotOfVertex[vertex] = slots;
+                    subdivision.slotOfVertex[vertex] = slots;
+                    sampleOfSlot[slots++] = vertex;
+                }
+            }
+            subdivision.decidedLevels = level + 1;
+            goesOn = slots == slotsBefore && !isOneLevelARound;
         }
-        subdivision.split[quadIndex(level, quad)] = 1u;
-        for (int j = 0; j < 5; ++j) {
-            int vertex = vertexAt(2 * halfSide * quad + halfSide * steps[j]);
-            if (slotOfVertex[vertex] >= 0) continue;
-            slotOfVertex[vertex] = slots;
-            subdivision.slotOfVertex[vertex] = slots;
-            sampleOfSlot[slots++] = vertex;
-        }
+        memoryBarrierBuffer();
+        barrier();
     }
-    plan.stages[level + 1] = ivec4(first, slots - first, 0, 0);
-    for (int i = level + 2; i < stageOfAll; ++i) plan.stages[i] = ivec4(slots, 0, 0, 0);
-    plan.stages[stageOfAll] = ivec4(0, slots, 0, 0);
-    subdivision.errorEstimate = subdivision.errorBound = 0u;
+    if (index == 0) {
+        int decided = subdivision.decidedLevels;
+        for (int i = quadIndex(decided, ivec2(0)); i < splittableQuads; ++i) subdivision.failing[i] = 0u;
+        // What the last split brings is not compared.
+        bool isDeepest = decided == maxDepth;
+        plan.stages[isDeepest ? stageOfDeepest : round + 1] = ivec4(first, slots - first, 0, 0);
+        plan.stages[stageOfAll] = ivec4(0, slots, 0, 0);
+        if (!isDeepest) plan.stages[stageOfCoarse] = plan.stages[stageOfAll];
+        setGroups(!isDeepest);
+        if (decided < maxDepth || maxDepth == deepestLevel) subdivision.errorBound = 0u;  // told anew of the finer tree
+    }
 }

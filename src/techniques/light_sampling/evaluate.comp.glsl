@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
 // Sums what the receivers see of a batch's samples (equation 2, with weights). Variants of sample_test.glsl, and
-// COLORED, where the light is textured; BITS, where the comparison left the shadow values of coarse samples.
+// COLORED, where the light is textured; BITS, where the comparison left the shadow values of coarse samples, and those
+// of the deepest level are looked up only where the corners of their quads disagree; SMOOTH, where samples that
+// disagree are asked for their cells.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/common/view.glsl"
@@ -29,9 +31,19 @@ layout(binding = 2, FORMAT) uniform image2D wholeSoFar;
 #include "src/techniques/light_sampling/subdivision_io.h"
 #include "src/techniques/light_sampling/lattice_bits.glsl"
 layout(binding = 4) uniform usampler2D shadowBits;
+layout(std430, binding = 5) readonly buffer SubdivisionBlock { Subdivision subdivision; };
 #endif
 
+layout(std430, binding = 4) readonly buffer Order { int slotInOrder[]; };
+
 layout(location = 16) uniform ivec4 range;  // xy: slots of the batch to sum; z: starts the sum; w: ends it
+
+#ifdef BITS
+#include "src/techniques/light_sampling/settled.glsl"
+#endif
+#ifdef SMOOTH
+#include "src/techniques/light_sampling/smooth.glsl"
+#endif
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -50,27 +62,62 @@ void main() {
     if (!isBehindLight(receiver)) {
         Lookup lookup = makeLookup(receiver);
 #ifdef BITS
-        // Every slot before this stage.
-        uvec4 bits = texelFetch(shadowBits, pixel, 0);
-        uint words[3] = uint[3](bits.x, bits.y, bits.z);
-        for (int slot = 0; starts && slot < plan.stages[stage].x; ++slot) {
-            int vertex = sampleOfSlot[slot];
-            LightSample light = samples[vertex];
-            precise VALUE weight = countOf(light, receiver) * WEIGHT(light);
-            BitPlace place = bitPlace(vertex);
-            whole += weight;
-            seen += (words[place.word] & place.mask) == 0u ? weight : VALUE(0.0);
+        Comparison comparison = loadComparison(pixel);
+        if (isSettled(comparison, receiver)) {
+            if (ends) imageStore(visibility, pixel, vec4(isAnyShadowed(comparison) ? 0.0 : 1.0));
+            return;
+        }
+        comparison.counted = uvec4(0u);
+        for (int word = 0; word < 3; ++word) {
+            for (uint rest = comparison.tree[word]; rest != 0u; rest &= rest - 1u) {
+                int vertex = vertexOf(word, findLSB(rest));
+                precise VALUE weight = countOf(samples[vertex], receiver) * WEIGHT(samples[vertex]);
+                if (weight == VALUE(0.0)) continue;
+                uint mask = rest & -rest;
+                comparison.counted[word] |= mask;
+                if (!starts) continue;
+                whole += weight;
+                if ((comparison.shadows[word] & mask) == 0u) seen += weight;
+            }
+        }
+        findUnsettled(comparison);
+#ifdef SMOOTH
+        findBorder(comparison);
+        float nearness = meanNearness(comparison, lookup);
+        for (int word = 0; word < 3 && nearness > 0.0; ++word) {
+            for (uint rest = comparison.border[word]; rest != 0u; rest &= rest - 1u) {
+                int vertex = vertexOf(word, findLSB(rest));
+                VALUE weight = countOf(samples[vertex], receiver) * WEIGHT(samples[vertex]);
+                float before = (comparison.shadows[word] & rest & -rest) == 0u ? 1.0 : 0.0;
+                seen += weight * (cellLit(vertex, lookup, nearness) - before);
+            }
         }
 #endif
+#endif
+        bool isInOrder = isResident && stage == stageOfAll;
         int first = firstSlot();
-        int end = min(slotCount(), range.y);
+        int end = min(isInOrder ? plan.evaluated.x : slotCount(), range.y);
         for (int i = range.x; i < end; ++i) {
-            LightSample light = samples[sampleOfSlot[first + i]];
-            float count = countOf(light, receiver);
+            int slot = isInOrder ? slotInOrder[i] : first + i;
+            int vertex = sampleOfSlot[slot];
+            float count = countOf(samples[vertex], receiver);
             if (count == 0.0) continue;
-            precise VALUE weight = count * WEIGHT(light);
+            precise VALUE weight = count * WEIGHT(samples[vertex]);
             whole += weight;
-            seen += weight * (faces > 0 ? sampleLit(layerOf(first + i), lookup) : 1.0);
+#ifdef BITS
+            bool isLit;
+            if (isAgreed(comparison, vertex, isLit)) {
+                if (isLit) seen += weight;
+                continue;
+            }
+#endif
+#ifdef SMOOTH
+            if (nearness > 0.0) {
+                seen += weight * cellLit(vertex, lookup, nearness);
+                continue;
+            }
+#endif
+            seen += weight * (faces > 0 ? sampleLit(layerOf(slot), lookup) : 1.0);
         }
     }
     if (!ends) {

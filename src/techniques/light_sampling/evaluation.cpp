@@ -68,7 +68,9 @@ void SampleEvaluation::add(const ShadowInputs& inputs, const SampleCameras& came
     std::vector<std::string> defines;
     if (out.colored()) defines.push_back("COLORED");
     if (batch.usesBits) defines.push_back("BITS");
+    if (batch.taps > 0) defines.push_back("SMOOTH");
     lookup_.use(inputs.light, cameras, options, std::move(defines));
+    if (batch.taps > 0) glUniform1i(17, batch.taps);
     maps.bind();
     maps.setBatch(batch.stage, batch.batch);
     bindVisibility(out, 0);

@@ -48,7 +48,8 @@ class SampleEvaluation {
         int batch = 0;
         int mostSlots = 1;                ///< it can hold
         bool starts = true, ends = true;  ///< the sum
-        bool usesBits = false;  ///< the slots before the stage come from shadow bits at texture unit 4
+        bool usesBits = false;            ///< all that was compared comes from shadow bits at texture unit 4
+        int taps = 0;  ///< of the filter between samples that disagree, a power of two; 0: none
     };
 
     /// Adds a batch to the sums. Expects the view to be bound.

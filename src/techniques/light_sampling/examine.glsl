@@ -1,21 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two-pass test (section 3.3.3, Figure 6) for a row of quads at once: bit x of a word is the quad whose left edge is
-// column x of the 9 x 9 bits. Includer declares `shadowBits`.
-
-// The sum of four shadow values, 0 to 4, as three binary digits.
-struct Sums {
-    uint ones, twos, fours;
-};
-
-Sums sumsOfRow(uvec4 bits, int row, int stride) {
-    uint low = bitRow(bits, row), high = bitRow(bits, row + stride);
-    uint a = low, b = low >> stride, c = high, d = high >> stride;
-    uint ab = a ^ b, cd = c ^ d;
-    return Sums(ab ^ cd, (a & b) ^ (c & d) ^ (ab & cd), a & b & c & d);
-}
-
-// Values 1 to 3: the penumbra.
-uint penumbraOf(Sums sums) { return sums.ones | sums.twos; }
+// The two-pass test (section 3.3.3, Figure 6) for a row of quads at once: bit x of a word is the quad whose left edge
+// is column x of the 9 x 9 bits. Includer declares `shadowBits`.
 
 uint equal(Sums a, Sums b) { return ~((a.ones ^ b.ones) | (a.twos ^ b.twos) | (a.fours ^ b.fours)); }
 

@@ -16,3 +16,18 @@ uint bitRow(uvec4 bits, int row) {
     uint word = row < 3 ? bits.x : row < 6 ? bits.y : bits.z;
     return (word >> (9 * (row % 3))) & 511u;
 }
+
+// The sum of four shadow values, 0 to 4, as three binary digits.
+struct Sums {
+    uint ones, twos, fours;
+};
+
+Sums sumsOfRow(uvec4 bits, int row, int stride) {
+    uint low = bitRow(bits, row), high = bitRow(bits, row + stride);
+    uint a = low, b = low >> stride, c = high, d = high >> stride;
+    uint ab = a ^ b, cd = c ^ d;
+    return Sums(ab ^ cd, (a & b) ^ (c & d) ^ (ab & cd), a & b & c & d);
+}
+
+// Values 1 to 3: the penumbra.
+uint penumbraOf(Sums sums) { return sums.ones | sums.twos; }

@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
-// What each sample of the subdivision stands for.
-layout(local_size_x = 64) in;
+// What each sample of the subdivision stands for, and the order in which they are summed up. One group.
+layout(local_size_x = 320) in;
 
 #include "src/techniques/light_sampling/sampling_io.h"
 #include "src/techniques/light_sampling/subdivision_io.h"
 
-layout(std430, binding = 0) readonly buffer SubdivisionBlock { Subdivision subdivision; };
+layout(std430, binding = 0) buffer SubdivisionBlock { Subdivision subdivision; };
 layout(std430, binding = 1) buffer Samples { LightSample samples[]; };
 // A textured light's radiance over 34 x 34 cells, in `weight.rgb`: a quarter of what each vertex stands for at most.
 layout(std430, binding = 2) readonly buffer Cells { LightSample cells[]; };
 #include "src/techniques/light_sampling/subdivision.glsl"
 
+layout(std430, binding = 3) writeonly buffer Order { int slotInOrder[]; };
+layout(std430, binding = 4) buffer Plan { SamplingPlan plan; };
+
 layout(location = 0) uniform bool usesPaperWeights;
 layout(location = 1) uniform bool isTextured;
+
+shared bool isUsed[latticeVertices];
 
 vec3 radianceOf(ivec2 low, ivec2 high) {
     vec3 sum = vec3(0.0);
@@ -23,9 +28,13 @@ vec3 radianceOf(ivec2 low, ivec2 high) {
     return sum;
 }
 
-void main() {
-    int vertex = int(gl_GlobalInvocationID.x);
-    if (vertex >= latticeVertices) return;
+// What a sample stands for.
+struct Cell {
+    vec4 weight;  // rgb: radiance; a: area; 0 where the tree has no vertex
+    vec2 middle;  // from the sample, in units of the square's sides
+};
+
+Cell cellOf(int vertex) {
     ivec2 place = ivec2(vertex % latticeSide, vertex / latticeSide);
 
     // The integral over a leaf is its area times the mean of its corners, as for a bilinear function: each corner
@@ -34,6 +43,7 @@ void main() {
     // neighbour's edge counts in its own leaves alone.
     float area = 0.0;
     vec3 radiance = vec3(0.0);
+    vec2 moment = vec2(0.0);
     int deepest = 0;
     for (int level = 0; level <= deepestLevel; ++level) {
         int side = 16 >> level;
@@ -48,16 +58,49 @@ void main() {
             ivec2 high = low + side;
             low = mix(low, ivec2(0), equal(low, ivec2(1)));
             high = mix(high, ivec2(34), equal(high, ivec2(33)));
-            area += float((high.x - low.x) * (high.y - low.y)) / (34.0 * 34.0);
+            float part = float((high.x - low.x) * (high.y - low.y)) / (34.0 * 34.0);
+            area += part;
+            moment += part * (0.5 * vec2(low + high) - vec2(2 * place + 1)) / 34.0;
             if (isTextured) radiance += radianceOf(low, high);
         }
     }
     // Equation 3, its depth being that of the finest quad at the sample: so the weights of an even subdivision add up
     // to 1, as the paper says they do.
+    vec2 middle = area > 0.0 ? moment / area : vec2(0.0);
     if (usesPaperWeights && area > 0.0) {
         float paper = 1.0 / float(((1 << deepest) + 1) * ((1 << deepest) + 1));
         radiance *= paper / area;
         area = paper;
     }
-    samples[vertex].weight = vec4(radiance, area);
+    return Cell(vec4(radiance, area), middle);
+}
+
+// Bit x: the quad whose left edge is column x of the 9 x 9 coarse vertices is a leaf.
+uint leafRow(int index) {
+    int level = findMSB(uint(index) + 1u);
+    uint row = 0u;
+    for (int x = 0; x < (1 << level); ++x) {
+        if (isLeaf(level, ivec2(x, index + 1 - (1 << level)))) row |= 1u << (x * (8 >> level));
+    }
+    return row;
+}
+
+void main() {
+    int vertex = int(gl_LocalInvocationIndex);
+    if (vertex < latticeVertices) {
+        Cell cell = cellOf(vertex);
+        samples[vertex].weight = cell.weight;
+        samples[vertex].normal.w = sqrt(cell.weight.a);
+        samples[vertex].spanU.w = cell.middle.x;
+        samples[vertex].spanV.w = cell.middle.y;
+        isUsed[vertex] = cell.weight.a > 0.0;
+    }
+    if (vertex < 15) subdivision.leafRows[vertex] = leafRow(vertex);
+    barrier();
+    if (vertex >= latticeVertices) return;
+    // By their place on the light: the sum shall not depend on the order in which they were found.
+    int before = 0;
+    for (int i = 0; i < vertex; ++i) before += int(isUsed[i]);
+    if (isUsed[vertex]) slotInOrder[before] = subdivision.slotOfVertex[vertex];
+    if (vertex == latticeVertices - 1) plan.evaluated = ivec4(before + int(isUsed[vertex]), 0, 0, 0);
 }

@@ -74,7 +74,7 @@ LightSurface::LightSurface(const AreaLight& light, const LightSpaceScene& scene)
 
 LightSample LightSurface::sample(const glm::dvec2& square) const {
     const auto flat = [](const glm::dvec3& place) {
-        return LightSample{glm::vec4(glm::vec3(place), 1), glm::vec4(0), glm::vec4(1)};
+        return LightSample{glm::vec4(glm::vec3(place), 1), glm::vec4(0), glm::vec4(1), {}, {}};
     };
     switch (light_.shape) {
         case LightShape::rect:
@@ -93,6 +93,16 @@ LightSample LightSurface::sample(const glm::dvec2& square) const {
     }
 }
 
+LightSample LightSurface::sampleWithSpans(const glm::dvec2& square, double cellSide) const {
+    LightSample middle = sample(square);
+    const auto span = [&](const glm::dvec2& step) {
+        return (sample(square + step).place - sample(square - step).place) / float(cellSide);
+    };
+    middle.spanU = glm::vec4(glm::vec3(span({0.5 * cellSide, 0})), 0);
+    middle.spanV = glm::vec4(glm::vec3(span({0, 0.5 * cellSide})), 0);
+    return middle;
+}
+
 LightSample LightSurface::spherePoint(const glm::dvec2& disk) const {
     // Where a cone's receivers just lose sight the density is zero; the outermost points stay a little
     // inside.
@@ -109,7 +119,10 @@ LightSample LightSurface::spherePoint(const glm::dvec2& disk) const {
     const glm::dvec2 around = radius > 0 ? glm::normalize(disk) : glm::dvec2(1, 0);
     const glm::dvec3 normal = std::cos(t) * axis_ + std::sin(t) * (around.x * across_ + around.y * along_);
     return {glm::vec4(glm::vec3(double(light_.radius_m) * normal), 1 / std::max(density, 1e-3)),
-            glm::vec4(glm::vec3(normal), 0), glm::vec4(1)};
+            glm::vec4(glm::vec3(normal), 0),
+            glm::vec4(1),
+            {},
+            {}};
 }
 
 std::vector<glm::dvec3> LightSurface::bounds() const {

@@ -22,6 +22,8 @@ class LightSurface {
 
     /// A sample at `square` in [0, 1]^2, of weight 1.
     LightSample sample(const glm::dvec2& square) const;
+    /// The same with its spans: how it moves with `square`, over a cell of the lattice.
+    LightSample sampleWithSpans(const glm::dvec2& square, double cellSide) const;
 
     /// The corners of a box around all samples; of a distant light, nothing.
     std::vector<glm::dvec3> bounds() const;

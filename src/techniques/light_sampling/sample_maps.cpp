@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "src/gl/raster_state.h"
@@ -104,7 +105,10 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
 
     const auto layers = std::size_t(capacity_ * facesInMemory);
     const std::size_t casterLayers = layers * casters.size();
+    identity_.resize(samples.size());
+    std::iota(identity_.begin(), identity_.end(), 0);
     grow(slots_, samples.size() * sizeof(int), "slots of light samples");
+    grow(order_, samples.size() * sizeof(int), "order of light samples");
     grow(layerCameras_, layers * sizeof(LightCameraConstants), "light sampling layer cameras");
     grow(layerTaps_, layers * sizeof(LayerTap), "light sampling layer taps");
     grow(layerLists_, casterLayers * sizeof(int), "light sampling layer lists");
@@ -113,9 +117,14 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
          "light sampling draws");
 }
 
-void SampleMaps::writePlan(const SamplingPlan& plan, std::span<const int> sampleOfSlot) {
+void SampleMaps::planAll() {
+    SamplingPlan plan{};
+    const int count = int(identity_.size());
+    plan.stages[stageOfAll] = {0, count, 0, 0};
+    plan.evaluated.x = count;
     plan_.write(std::as_bytes(std::span(&plan, 1)));
-    if (!sampleOfSlot.empty()) slots_.write(std::as_bytes(sampleOfSlot));
+    slots_.write(std::as_bytes(std::span(identity_)));
+    order_.write(std::as_bytes(std::span(identity_)));
 }
 
 void SampleMaps::setBatch(int stage, int batch) const {
@@ -132,6 +141,7 @@ void SampleMaps::bind() const {
     bindStorage(1, slots_);
     bindStorage(2, samples_);
     bindStorage(3, layerTaps_);
+    bindStorage(4, order_);
 }
 
 void SampleMaps::draw(int stage, int batch) {

@@ -31,8 +31,8 @@ class SampleMaps {
                  std::span<const LightSample> samples, const SampleCameras& cameras, int mapSize_px,
                  int expectedSamples);
 
-    /// The plan: stages and the sample in each slot, from the CPU.
-    void writePlan(const SamplingPlan& plan, std::span<const int> sampleOfSlot);
+    /// The plan from the CPU: one stage of all samples, a slot each.
+    void planAll();
 
     /// Whether all maps stay where they are, so that later stages do not overwrite earlier ones.
     bool isResident() const { return resident_; }
@@ -43,8 +43,8 @@ class SampleMaps {
     /// Draws the maps of batch `batch` of a stage.
     void draw(int stage, int batch);
 
-    /// Binds the maps to texture unit 3 and to storage blocks 0 to 3: plan, slots, samples, taps. For
-    /// sample_test.glsl.
+    /// Binds the maps to texture unit 3 and to storage blocks 0 to 4: plan, slots, samples, taps, order. For
+    /// sample_test.glsl and evaluate.comp.glsl.
     void bind() const;
     /// Sets its uniforms 0 to 3 of the program in use.
     void setBatch(int stage, int batch) const;
@@ -53,6 +53,8 @@ class SampleMaps {
     const gl::Buffer& plan() const { return plan_; }
     const gl::Buffer& slots() const { return slots_; }
     const gl::Buffer& samples() const { return samples_; }
+    /// Slots in the order in which resident maps are evaluated.
+    const gl::Buffer& order() const { return order_; }
 
   private:
     void allocate(int mapSize_px, int layers);
@@ -63,11 +65,12 @@ class SampleMaps {
     gl::VertexArrayHandle vertices_, noVertices_;
     gl::Texture maps_;
     gl::Framebuffer framebuffer_;
-    gl::Buffer plan_, slots_, samples_, cameras_;                  // as the CPU or the device chose them
+    gl::Buffer plan_, slots_, order_, samples_, cameras_;          // as the CPU or the device chose them
     gl::Buffer layerCameras_, layerTaps_, layerLists_, commands_;  // of the batch, by layer
     gl::Buffer cullBoxes_, casterConstants_;
     std::vector<CullBox> boxes_;
     std::vector<CasterConstants> constants_;
+    std::vector<int> identity_;
     std::span<const Caster> casters_;
     int mapSize_px_ = 0;
     int faces_ = 0;

@@ -84,6 +84,52 @@ float texelLit(int layer, LayerTap tap, vec3 pos, vec3 normal, float across, vec
 #endif
 }
 
+#if !defined(CUBE)
+// What a sample's map tells of its surroundings on the light. A blocker at some depth between receiver and light is
+// seen from a place that lies `step` beside the sample where the line from there to the receiver passes its depth: so
+// the map is asked there. `nearness` says how near to the light the blocker is: 1 / depth, less that of the receiver,
+// or for distant lights the depth between the two. Depths are those in the map.
+float blockerNearness(int layer, Lookup lookup) {
+    LayerTap tap = layerTaps[layer];
+    vec3 pos = lookup.pos;
+#ifdef DISTANT
+    vec2 place = pos.xy - tap.origin.xy * pos.z;
+#else
+    pos -= tap.origin.xyz;
+    vec2 place = pos.xy / pos.z;
+#endif
+    float size_px = float(textureSize(maps, 0).x);
+    vec2 at = (place - tap.window.xy) * tap.window.zw * size_px;
+    float stored = texelFetch(maps, ivec3(clamp(ivec2(at), ivec2(0), ivec2(size_px) - 1), layer), 0).r;
+#ifdef DISTANT
+    return pos.z - (nearFar_m.y - stored * (nearFar_m.y - nearFar_m.x));
+#else
+    return stored / nearFar_m.x - 1.0 / pos.z;
+#endif
+}
+
+float besideSampleLit(int layer, Lookup lookup, vec3 place, vec3 step, float nearness) {
+    LayerTap tap = layerTaps[layer];
+    vec3 pos = lookup.pos;
+#ifdef DISTANT
+    vec3 beside = faceFromLight[0] * (place + step);
+    vec2 slopes = beside.xy / min(beside.z, -1e-6);
+    vec2 seenAt = pos.xy - tap.origin.xy * pos.z - (slopes - tap.origin.xy) * nearness;
+#else
+    pos -= tap.origin.xyz;
+    if (!(pos.z > 0.0)) return 1.0;
+    float blocked = nearness * pos.z / (1.0 + nearness * pos.z);
+    vec3 passes = mix(pos, faceFromLight[0] * step, blocked);
+    if (!(passes.z > 0.0)) return 1.0;
+    vec2 seenAt = passes.xy / passes.z;
+#endif
+    float size_px = float(textureSize(maps, 0).x);
+    vec2 at = (seenAt - tap.window.xy) * tap.window.zw * size_px;
+    if (!(all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(size_px))))) return 1.0;
+    return texelLit(layer, tap, pos, lookup.normal, dot(lookup.normal, pos), floor(at), size_px);
+}
+#endif
+
 // Share of the sample that the receiver sees: 0 or 1, and between them where maps are filtered.
 float sampleLit(int layer, Lookup lookup) {
     vec3 pos = lookup.pos;

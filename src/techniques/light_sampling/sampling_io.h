@@ -17,8 +17,12 @@ using glm::vec4;
 struct LightSample {
     vec4
         place;  // xyz: position in light space, or the unit direction towards a distant light; w: 1 / density
-    vec4 normal;  // sphere: outward
+    vec4 normal;  // xyz: sphere: outward; w: side of its cell, a part of the unit square that is laid over
+                  // the light
     vec4 weight;  // rgb: share of the light's emission; a: share of its area
+    vec4 spanU;   // xyz: how `place` moves along the unit square's sides; w: from the sample to its cell's
+                  // middle
+    vec4 spanV;
 };
 
 // A layer's map, as a receiver is looked up in it. All samples share the axes of their maps.
@@ -48,18 +52,24 @@ struct DrawCommand {
     int baseInstance;
 };
 
-// Slots hold the samples in use, in the order in which they were chosen; a stage is a run of slots whose maps
-// are drawn together: a level of the subdivision, or everything.
+// Slots hold the samples that have maps, in the order in which they were chosen; a stage is a run of slots
+// whose maps are drawn together: those of a round of the subdivision, or everything.
 const int maxStages = 8;
-const int stageOfAll = 7;  // of all slots
+const int mostRounds = 4;
+const int stageOfCoarse = 5;   // what is compared: of all rounds
+const int stageOfDeepest = 6;  // what is not
+const int stageOfAll = 7;
 
 struct SamplingPlan {
     ivec4 stages[maxStages];  // x: first slot; y: number of slots
+    uvec4 compareGroups;      // to dispatch for the slots of the next round: none where it has none
+    uvec4 examineGroups;
+    ivec4 evaluated;  // x: samples to evaluate, in the order of `Order`
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(LightSample) == 48 && sizeof(LayerTap) == 32 && sizeof(CullBox) == 144);
-static_assert(sizeof(DrawCommand) == 20 && sizeof(SamplingPlan) == 128 && sizeof(SampleCamera) == 192);
+static_assert(sizeof(LightSample) == 80 && sizeof(LayerTap) == 32 && sizeof(CullBox) == 144);
+static_assert(sizeof(DrawCommand) == 20 && sizeof(SamplingPlan) == 176 && sizeof(SampleCamera) == 192);
 }  // namespace penumbra
 #endif
 #endif

@@ -2,6 +2,7 @@
 #include "src/techniques/light_sampling/subdivision.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace penumbra {
 namespace {
@@ -20,9 +21,37 @@ void resize(gl::Texture& texture, int width_px, int height_px, GLenum format, st
     texture = gl::Texture({.width_px = width_px, .height_px = height_px, .format = format, .label = label});
 }
 
+/// As many groups as the device has written into the plan.
+void dispatchPlanned(const SampleMaps& maps, std::size_t offset_bytes) {
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, maps.plan().name());
+    glDispatchComputeIndirect(GLintptr(offset_bytes));
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+}
+
 constexpr int quadsPictureSize_px = 257;
 
+int latticeSize(int depth) {
+    const int side = (1 << depth) + 1;
+    return side * side;
+}
+
 }  // namespace
+
+int SubdivisionOptions::baseDepth() const {
+    int depth = std::min(minDepth, maxDepth);
+    while (depth > 0 && latticeSize(depth) > maxSamples) --depth;
+    return depth;
+}
+
+int SubdivisionOptions::mostSlots(int round) const {
+    const int depth = baseDepth() + round;
+    return std::min(maxSamples,
+                    round == 0 ? latticeSize(depth) : latticeSize(depth) - latticeSize(depth - 1));
+}
+
+int SubdivisionOptions::mostSlotsInAll() const {
+    return std::min(latticeVertices, maxSamples + std::min(maxSamples, latticeSize(deepestLevel - 1)));
+}
 
 SubdivisionPasses::SubdivisionPasses(Device& device)
     : decide_(device.internals().shaders, file("decide.comp.glsl")),
@@ -42,43 +71,75 @@ void SubdivisionPasses::prepare(int width_px, int height_px) {
     resize(bits_, width_px, height_px, GL_RGBA32UI, "shadow values of light samples");
 }
 
-void SubdivisionPasses::start(const SampleMaps& maps, const SubdivisionOptions& options) {
-    decide(maps, -1, options);
+void SubdivisionPasses::start(const SampleMaps& maps, const SubdivisionOptions& options, bool isCoherent) {
+    decide(maps, -1, options, isCoherent);
 }
 
-void SubdivisionPasses::decide(const SampleMaps& maps, int level, const SubdivisionOptions& options) {
+void SubdivisionPasses::decide(const SampleMaps& maps, int round, const SubdivisionOptions& options) {
+    decide(maps, round, options, false);
+}
+
+void SubdivisionPasses::decide(const SampleMaps& maps, int round, const SubdivisionOptions& options,
+                               bool isCoherent) {
     decide_.use();
     bindStorage(0, tree_);
     bindStorage(1, maps.plan());
     bindStorage(2, maps.slots());
-    glUniform1i(0, level);
+    glUniform1i(0, round);
     glUniform1i(1, options.maxSamples);
     glUniform1ui(2, GLuint(options.tolerated));
     glUniform1i(3, options.minDepth);
+    glUniform1i(4, options.maxDepth);
+    glUniform1i(5, options.baseDepth());
+    glUniform1i(6, isCoherent);
+    glUniform1i(7, options.maxError > 0);
+    glUniform2i(8, bits_.width_px(), bits_.height_px());
     glDispatchCompute(1, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
 void SubdivisionPasses::compare(const ShadowInputs& inputs, const SampleCameras& cameras,
-                                const SampleMaps& maps, int stage, int batch, bool starts) {
+                                const SampleMaps& maps, const SubdivisionOptions& options, int stage,
+                                int batch) {
     compare_.use(inputs.light, cameras, {});
     maps.bind();
     maps.setBatch(stage, batch);
     bits_.bindImage(0, GL_READ_WRITE);
     glUniform2i(16, bits_.width_px(), bits_.height_px());
-    glUniform1i(17, starts);
-    gl::dispatchPixels(bits_.width_px(), bits_.height_px());
+    glUniform1i(17, batch == 0 && (stage == 0 || stage == stageOfCoarse));
+    glUniform1i(18, options.baseDepth());
+    if (stage == stageOfCoarse) {
+        gl::dispatchPixels(bits_.width_px(), bits_.height_px());
+    } else {
+        dispatchPlanned(maps, offsetof(SamplingPlan, compareGroups));
+    }
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void SubdivisionPasses::examine(int level, const SubdivisionOptions& options) {
+void SubdivisionPasses::prepareExamination(const SubdivisionOptions& options) {
     examine_.use();
     bits_.bind(0);
     bindStorage(0, tree_);
-    glUniform1i(0, level);
+    glUniform1i(0, options.maxDepth);
     glUniform1f(1, options.maxError);
+    glUniform1f(2, options.cellError);
+}
+
+void SubdivisionPasses::examine(const SampleMaps& maps, const SubdivisionOptions& options) {
+    prepareExamination(options);
+    dispatchPlanned(maps, offsetof(SamplingPlan, examineGroups));
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void SubdivisionPasses::examineError(const SubdivisionOptions& options) {
+    prepareExamination(options);
     glDispatchCompute(GLuint(bits_.width_px() + 15) / 16, GLuint(bits_.height_px() + 15) / 16, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void SubdivisionPasses::bind(GLuint unit, GLuint block) const {
+    bits_.bind(unit);
+    bindStorage(block, tree_);
 }
 
 void SubdivisionPasses::weigh(const SampleMaps& maps, bool usesPaperWeights, const gl::Buffer* cellShares) {
@@ -86,9 +147,11 @@ void SubdivisionPasses::weigh(const SampleMaps& maps, bool usesPaperWeights, con
     bindStorage(0, tree_);
     bindStorage(1, maps.samples());
     bindStorage(2, cellShares != nullptr ? *cellShares : maps.plan());
+    bindStorage(3, maps.order());
+    bindStorage(4, maps.plan());
     glUniform1i(0, usesPaperWeights);
     glUniform1i(1, cellShares != nullptr);
-    glDispatchCompute((latticeVertices + 63) / 64, 1, 1);
+    glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

@@ -14,39 +14,54 @@ namespace penumbra {
 
 /// When to split.
 struct SubdivisionOptions {
-    int maxSamples = latticeVertices;
-    int minDepth = 1;    ///< every quad above it is split
-    int tolerated = 0;   ///< failing fragments that do not yet split a quad
-    float maxError = 0;  ///< 0: the paper's test; else split until the error's estimate is below
+    int maxSamples = latticeVertices;  ///< at least 4
+    int minDepth = 1;                  ///< every quad above it is split
+    int maxDepth = deepestLevel;
+    int tolerated = 0;    ///< failing fragments that do not yet split a quad
+    float maxError = 0;   ///< 0: the paper's test; else split until the bound of the error is below
+    float cellError = 0;  ///< of a quad whose corners disagree, over its area
+
+    /// Down to which the tree is split at its start: what minDepth asks for, as far as the samples allow.
+    int baseDepth() const;
+    /// Maps and comparisons that a tree may take until all of it is decided.
+    int rounds() const { return maxDepth - baseDepth(); }
+    /// The most slots that a round can add; that of rounds() are those that are not compared.
+    int mostSlots(int round) const;
+    /// Slots for a tree, and for the vertices of the last frame's that it may turn out not to have.
+    int mostSlotsInAll() const;
+
+    bool operator==(const SubdivisionOptions&) const = default;
 };
 
 class SubdivisionPasses {
   public:
     explicit SubdivisionPasses(Device& device);
 
-    /// The most slots that a level can add.
-    static constexpr std::array<int, deepestLevel + 1> mostSlots = {4, 5, 16, 56, 208};
-
     /// Sizes the comparison target.
     void prepare(int width_px, int height_px);
 
-    /// Starts a tree with its corners in the plan's stage 0.
-    void start(const SampleMaps& maps, const SubdivisionOptions& options);
+    /// Starts a tree, whose first samples are in the plan's stage 0. `isCoherent`: those of the last tree are
+    /// among them; its options must have been the same.
+    void start(const SampleMaps& maps, const SubdivisionOptions& options, bool isCoherent);
 
-    /// Adds the shadow values of a batch's samples (its maps must be drawn, the view be bound).
-    void compare(const ShadowInputs& inputs, const SampleCameras& cameras, const SampleMaps& maps, int stage,
-                 int batch, bool starts);
+    /// Adds the shadow values of a batch's samples (its maps must be drawn, the view be bound). Does nothing
+    /// for a round without samples; the stage of all that is compared is compared always.
+    void compare(const ShadowInputs& inputs, const SampleCameras& cameras, const SampleMaps& maps,
+                 const SubdivisionOptions& options, int stage, int batch);
 
-    /// Tests the quads of a level, and splits those that fail it: the plan's stage `level` + 1 are the new
-    /// samples.
-    void examine(int level, const SubdivisionOptions& options);
-    void decide(const SampleMaps& maps, int level, const SubdivisionOptions& options);
+    /// Tests the quads that are known, and splits those that fail: the plan's stage `round` + 1 are the new
+    /// samples to compare, that of the deepest those that are not compared.
+    void examine(const SampleMaps& maps, const SubdivisionOptions& options);
+    /// Finds the bound of the finished tree's error.
+    void examineError(const SubdivisionOptions& options);
+    void decide(const SampleMaps& maps, int round, const SubdivisionOptions& options);
 
-    /// Writes the samples' weights. `cellShares`: the radiance over 34 x 34 cells of a textured light, or
-    /// null.
+    /// Writes the samples' weights and order. `cellShares`: the radiance over 34 x 34 cells of a textured
+    /// light, or null.
     void weigh(const SampleMaps& maps, bool usesPaperWeights, const gl::Buffer* cellShares);
 
-    void bindBits(GLuint unit) const { bits_.bind(unit); }
+    /// Binds the shadow values to a texture unit, and the tree to a storage block. For settled.glsl.
+    void bind(GLuint unit, GLuint block) const;
 
     /// Asks for the tree's numbers, and gets those of an earlier frame that have arrived: nobody waits.
     void requestReadback(const SampleMaps& maps);
@@ -87,6 +102,9 @@ class SubdivisionPasses {
         gl::Buffer subdivision, plan;
         Fence fence;
     };
+
+    void decide(const SampleMaps& maps, int round, const SubdivisionOptions& options, bool isCoherent);
+    void prepareExamination(const SubdivisionOptions& options);
 
     gl::Program decide_, examine_, weigh_, illustrate_, illustrateQuads_;
     SampleLookup compare_;

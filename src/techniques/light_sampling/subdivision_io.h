@@ -18,16 +18,20 @@ const int latticeVertices = 289;
 const int splittableQuads = 85;
 
 struct Subdivision {
-    int slotOfVertex[latticeVertices];  // -1: no sample there
-    uint failing[splittableQuads];      // fragments that want the quad split
-    uint split[splittableQuads];        // 1 where it was
-    uint reachedMaximum;                // 1 where a quad was left whole for want of maps
-    uint errorEstimate;  // bits of the largest estimate of a pixel's error (see examine.comp.glsl)
-    uint errorBound;     // bits of the largest bound
+    int slotOfVertex[latticeVertices];      // -1: no map there
+    uint failing[splittableQuads];          // fragments that want the quad split
+    uint split[splittableQuads];            // 1 where it was
+    uint samplesOfLevel[deepestLevel + 1];  // vertices in the tree that the level's quads brought
+    uint coarseVertices[3];  // bits, as in lattice_bits.glsl, of the vertices in the tree up to level 3
+    uint deepestRows[8];     // bit x of row y: the quad of level 3 is split
+    uint leafRows[15];       // of quads up to level 3 that are not split: see settled.glsl
+    int decidedLevels;       // quads of levels below are as they will stay
+    uint reachedMaximum;     // 1 where a quad was left whole for want of maps
+    uint errorBound;         // bits of the largest of a pixel (see examine.comp.glsl)
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Subdivision) == 4 * (latticeVertices + 2 * splittableQuads + 3));
+static_assert(sizeof(Subdivision) == 4 * (latticeVertices + 2 * splittableQuads + deepestLevel + 1 + 29));
 }  // namespace penumbra
 #endif
 #endif

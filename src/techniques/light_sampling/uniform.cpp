@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/techniques/light_sampling/uniform.h"
 
-#include <numeric>
-
 namespace penumbra {
 
 UniformLightSampling::UniformLightSampling(Device& device)
@@ -34,8 +32,6 @@ void UniformLightSampling::choose(const LightSurface& surface) {
         sample.weight = glm::vec4(float(point.weight));
         cells_.emplace_back(glm::vec2(point.cellMin), glm::vec2(point.cellMax));
     }
-    slots_.resize(samples_.size());
-    std::iota(slots_.begin(), slots_.end(), 0);
 }
 
 void UniformLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
@@ -48,9 +44,7 @@ void UniformLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& 
     const int mapSize_px = mapSizeFor(surface, mapSize_px_);
     cameras_.fit(inputs.light, surface, samples_, scene, mapSize_px);
     maps_.prepare(inputs.casters, scene, samples_, cameras_, mapSize_px, count);
-    SamplingPlan plan{};
-    plan.stages[stageOfAll] = {0, count, 0, 0};
-    maps_.writePlan(plan, slots_);
+    maps_.planAll();
     if (inputs.light.radianceTexture != 0) {
         const auto pass = timers_.pass("uniform/weights");
         radiance_.weigh(inputs.light.radianceTexture, cells_, maps_.samples());

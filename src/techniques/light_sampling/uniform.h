@@ -31,7 +31,6 @@ class UniformLightSampling final : public Technique {
 
     std::vector<LightSample> samples_;
     std::vector<glm::vec4> cells_;
-    std::vector<int> slots_;
     SampleCameras cameras_;
     SampleMaps maps_;
     SampleEvaluation evaluation_;
