@@ -126,7 +126,11 @@ GLuint HostView::copied(GLuint texture, gl::Texture& copy, GLenum format, const 
 
 glm::dvec2 HostView::samplePlace(const View& view) {
     // Places are a framebuffer's to tell.
-    if (samples_.name() == 0) samples_ = gl::Framebuffer({}, nullptr, "host's samples");
+    if (samples_.name() == 0) {
+        GLuint name = 0;
+        glCreateFramebuffers(1, &name);
+        samples_ = gl::Handle<gl::deleteFramebuffer>(name);
+    }
     const bool isDepth = levelParameter(view.depthTexture, GL_TEXTURE_DEPTH_SIZE) > 0;
     const GLenum attachment = isDepth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0;
     glNamedFramebufferTexture(samples_.name(), attachment, view.depthTexture, 0);
