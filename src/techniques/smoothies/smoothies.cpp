@@ -217,7 +217,7 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const bool distant = light.shape == LightShape::distant;
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
-    const std::vector<LightCamera> cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px_});
+    const LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px_});
     {
         const auto pass = timers_.pass("smoothies/depth map");
         depthMap_.render(inputs.casters, scene, cameras, mapSize_px_);
