@@ -20,6 +20,7 @@ configure_package_config_file(cmake/penumbra-config.cmake.in penumbra-config.cma
     INSTALL_DESTINATION ${package_folder})
 # Until 1.0 every minor version may break its users.
 write_basic_package_version_file(penumbra-config-version.cmake COMPATIBILITY SameMinorVersion)
+file(RELATIVE_PATH prefix_from_pc /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(cmake/penumbra.pc.in penumbra.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/penumbra-config.cmake ${PROJECT_BINARY_DIR}/penumbra-config-version.cmake
     DESTINATION ${package_folder} COMPONENT development)

@@ -67,7 +67,7 @@ void expectMinimalPicture(const std::string& path) {
     };
     const auto all = std::ptrdiff_t(picture.values.size());
     EXPECT_GT(values(0.99f, 1), all / 2) << "lit";
-    EXPECT_GT(values(0, 0.01f), all / 100) << "umbra, and the box's unlit sides";
+    EXPECT_GT(values(0, 0.05f), all / 500) << "umbra";
     EXPECT_GT(values(0.1f, 0.9f), all / 100) << "penumbra";
 }
 
@@ -90,7 +90,7 @@ TEST_F(Installed, IsFoundByPkgConfig) {
         "PKG_CONFIG_PATH=" + library() + "/pkgconfig pkg-config --cflags --libs penumbra ";
     ASSERT_TRUE(run("c++ -std=c++20 " + source("examples/minimal/minimal.cpp") + " -o " +
                     at("by-pkg-config") + " $(" + packages + "epoxy libpng) -Wl,-rpath," + library()));
-    ASSERT_TRUE(run(at("by-pkg-config") + " " + at("pkg-config.png") + " pcss"));
+    ASSERT_TRUE(run(at("by-pkg-config") + " " + at("pkg-config.png")));
     expectMinimalPicture(at("pkg-config.png"));
 }
 
@@ -146,7 +146,7 @@ TEST_F(Installed, ServesVtk) {
         return readPng(at(name)).image;
     };
     const Image plain = picture("plain.png", "--no-shadows");
-    const Image shadowed = picture("shadowed.png", "--technique exact");
+    const Image shadowed = picture("shadowed.png", "--technique soft-volumes");
     ASSERT_EQ(plain.values.size(), shadowed.values.size());
     std::size_t same = 0, darker = 0, between = 0;
     for (std::size_t i = 0; i < plain.values.size(); ++i) {

@@ -123,8 +123,8 @@ int main(int argc, char** argv) try {
     const glm::mat4 viewFromWorld =
         glm::lookAt(glm::vec3(2.5f, 3, 4), glm::vec3(0, 0.4f, 0), glm::vec3(0, 1, 0));
     glm::mat4 clipFromView(0);
-    clipFromView[0][0] = 1.8f * height_px / width_px;
-    clipFromView[1][1] = 1.8f;
+    clipFromView[0][0] = 3.0f * height_px / width_px;
+    clipFromView[1][1] = 3.0f;
     clipFromView[2][3] = -1;
     clipFromView[3][2] = 0.1f;  // the near plane
     const DepthPass depth;

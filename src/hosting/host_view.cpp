@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/hosting/host_view.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -55,14 +56,15 @@ void checkTexture(const char* name, GLuint texture, const View& view) {
     }
 }
 
-/// How far apart the depths are that the texture can hold, at the least precise; 0 for reversed floats, which
-/// are as precise as the positions that are made of them.
+/// How far apart two depths are that a shader can tell from each other, where that is worst; 0 for reversed
+/// floats, which are as precise as the positions that are made of them.
 double depthStep(GLuint texture, bool reversed) {
+    constexpr int mantissa_bits = 24;
+    const double ofShader = reversed ? 0 : std::exp2(-mantissa_bits);
     GLint type = GL_NONE;
     glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH_TYPE, &type);
-    if (type == GL_UNSIGNED_NORMALIZED) return std::exp2(-levelParameter(texture, GL_TEXTURE_DEPTH_SIZE));
-    constexpr int mantissa_bits = 24;
-    return reversed ? 0 : std::exp2(-mantissa_bits);
+    if (type != GL_UNSIGNED_NORMALIZED) return ofShader;
+    return std::max(ofShader, std::exp2(-levelParameter(texture, GL_TEXTURE_DEPTH_SIZE)));
 }
 
 /// The camera whose clip space lies `shift` (in normalised device coordinates) away: a point that this one
