@@ -78,6 +78,12 @@ Device::Internals::Internals(DeviceOptions options)
     shaders.add(libraryShaders());
 }
 
+void Device::Internals::requireContext() const {
+    if (!ledger->contextLost) return;
+    throw Error(Error::Kind::lostContext,
+                "the device was abandoned: make a new Device, and new meshes and techniques on it");
+}
+
 Device::Device(DeviceOptions options) : internals_(std::make_unique<Internals>(std::move(options))) {}
 Device::Device(Device&&) noexcept = default;
 Device& Device::operator=(Device&&) noexcept = default;

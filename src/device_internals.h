@@ -17,6 +17,9 @@ namespace penumbra {
 struct Device::Internals {
     explicit Internals(DeviceOptions options);
 
+    /// Throws Error::Kind::lostContext where the device was given up.
+    void requireContext() const;
+
     std::shared_ptr<gl::Ledger> ledger = std::make_shared<gl::Ledger>();
     gl::DebugLog log;
     gl::ShaderLibrary shaders;

@@ -36,8 +36,9 @@ class PENUMBRA_API VisibilityBuffer {
         int x_px = 0, y_px = 0;  ///< lower left corner
         int width_px = 0, height_px = 0;
     };
-    /// Writes into the host's texture: without a detour where the rectangle starts at (0, 0). Throws
-    /// Error::Kind::badArgument where the texture has another format or does not contain the rectangle.
+    /// Writes into the host's texture: at no extra cost where the rectangle starts at (0, 0) and the format
+    /// is GL_R32F, or GL_RGBA16F for a textured light; else by a copy. Throws Error::Kind::badArgument where
+    /// the texture has another format than those above or does not contain the rectangle.
     VisibilityBuffer(Device& device, const HostTexture& host, bool colored = false);
 
     VisibilityBuffer(VisibilityBuffer&&) noexcept;

@@ -71,8 +71,12 @@ void gatherIndices(Device::Internals& device, const Mesh::HostSource& source, co
             "the offset must be a multiple of an index's size");
     if (source.indexCount == 0) return;
     requireHolds(source.indexBuffer, source.indexOffset_bytes + source.indexCount * index_bytes, "indices");
-    gather(device, source.indexBuffer, source.indexCount,
-           {source.indexOffset_bytes / index_bytes, 1, std::size_t(isWide ? 1 : 0)}, target);
+    // Shaders cannot read the last half of a buffer that does not end at a word.
+    const std::size_t size_bytes = source.indexCount * index_bytes;
+    const gl::Buffer words((size_bytes + word_bytes - 1) / word_bytes * word_bytes, "host's indices");
+    glCopyNamedBufferSubData(source.indexBuffer, words.name(), GLintptr(source.indexOffset_bytes), 0,
+                             GLsizeiptr(size_bytes));
+    gather(device, words.name(), source.indexCount, {0, 1, std::size_t(isWide ? 1 : 0)}, target);
 }
 
 }  // namespace penumbra

@@ -47,7 +47,7 @@ void requireTriangles(std::span<const std::uint32_t> indices, std::size_t vertex
 Mesh::Mesh() : internals_(std::make_unique<Internals>()) {}
 
 Mesh::Mesh(Device& device, const Source& source) : Mesh() {
-    requireContext(device.internals());
+    device.internals().requireContext();
     requireFinite(source.positions);
     requireTriangles(source.indices, source.positions.size());
     require(source.uvs.empty() || source.uvs.size() == source.positions.size(),
@@ -94,7 +94,7 @@ Mesh& Mesh::operator=(Mesh&&) noexcept = default;
 Mesh::~Mesh() = default;
 
 void Mesh::deform(std::span<const Vec3> positions) {
-    requireContext(*internals_->device);
+    internals_->device->requireContext();
     require(positions.size() == internals_->positions.size(),
             "deform: as many positions as at first are needed");
     requireFinite(positions);
@@ -106,7 +106,7 @@ void Mesh::deform(std::span<const Vec3> positions) {
 }
 
 void Mesh::deform(const HostVectors& positions, const Box& bounds) {
-    requireContext(*internals_->device);
+    internals_->device->requireContext();
     require(isFinite(bounds.min) && isFinite(bounds.max) && bounds.min.x <= bounds.max.x &&
                 bounds.min.y <= bounds.max.y && bounds.min.z <= bounds.max.z,
             "deform: the bounds are not finite or empty");

@@ -26,6 +26,10 @@ const std::shared_ptr<Ledger>& LedgerScope::current() {
     return threadsLedger();
 }
 
+std::pmr::memory_resource* LedgerScope::frameMemory() {
+    return current() ? &current()->frameMemory : std::pmr::get_default_resource();
+}
+
 void label(GLenum kind, GLuint name, std::string_view text) {
     if (!text.empty()) glObjectLabel(kind, name, GLsizei(text.size()), text.data());
 }

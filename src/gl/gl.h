@@ -6,15 +6,20 @@
 
 #include <cstddef>
 #include <memory>
+#include <memory_resource>
 #include <string_view>
 #include <utility>
 
 namespace penumbra::gl {
 
-/// What the objects of a device have in common: the room they take, and whether their context still lives.
+/// What a device's objects and frames have in common.
 struct Ledger {
-    std::size_t size_bytes = 0;
+    std::size_t size_bytes = 0;  ///< that objects take
     bool contextLost = false;  ///< names mean nothing any more, and OpenGL must not be called for them
+
+    /// For what a frame needs on the CPU and forgets: it comes back for the next, so that a settled frame
+    /// allocates nothing.
+    std::pmr::unsynchronized_pool_resource frameMemory;
 };
 
 /// While it lives, objects made on this thread are entered in `ledger`. The thread's current ledger goes with
@@ -28,6 +33,9 @@ class LedgerScope {
 
     /// Null outside of every scope.
     static const std::shared_ptr<Ledger>& current();
+
+    /// The current ledger's; outside of every scope the standard one.
+    static std::pmr::memory_resource* frameMemory();
 
   private:
     std::shared_ptr<Ledger> outer_;

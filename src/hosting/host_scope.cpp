@@ -16,15 +16,8 @@ void requireNoTransformFeedback() {
 
 }  // namespace
 
-void requireContext(const Device::Internals& device) {
-    if (device.ledger->contextLost) {
-        throw Error(Error::Kind::lostContext,
-                    "the device was abandoned: make a new Device, and new meshes and techniques on it");
-    }
-}
-
 HostScope::HostScope(const Device::Internals& device) : ledger_(device.ledger) {
-    requireContext(device);
+    device.requireContext();
     requireNoTransformFeedback();
     if (device.keepHostState) state_.emplace();
     setKnownState();

@@ -8,9 +8,6 @@
 
 namespace penumbra {
 
-/// Throws Error::Kind::lostContext for a device that was given up.
-void requireContext(const Device::Internals& device);
-
 /// Every entry into the library that draws or computes: from the host's state to a known one and, when it is
 /// destroyed, back. Objects made meanwhile belong to the device.
 class HostScope {

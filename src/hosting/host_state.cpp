@@ -90,6 +90,7 @@ void setKnownState() {
     for (const PixelStore& store : pixelStores) glPixelStorei(store.name, store.standard);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+    glBindBuffer(GL_QUERY_BUFFER, 0);
     // A sampler object would overrule our textures' own filters.
     glBindSamplers(0, textureUnits, nullptr);
 }
@@ -114,6 +115,7 @@ void HostState::saveObjects() {
     dispatchIndirect_ = integer(GL_DISPATCH_INDIRECT_BUFFER_BINDING);
     pixelPack_ = integer(GL_PIXEL_PACK_BUFFER_BINDING);
     pixelUnpack_ = integer(GL_PIXEL_UNPACK_BUFFER_BINDING);
+    query_ = integer(GL_QUERY_BUFFER_BINDING);
     storage_ = integer(GL_SHADER_STORAGE_BUFFER_BINDING);
     uniform_ = integer(GL_UNIFORM_BUFFER_BINDING);
     static_assert(pixelStores == penumbra::pixelStores.size());
@@ -121,13 +123,15 @@ void HostState::saveObjects() {
 }
 
 void HostState::restoreObjects() const {
-    glUseProgram(GLuint(program_));
+    // One that the host had deleted lived only as long as it was current.
+    glUseProgram(glIsProgram(GLuint(program_)) ? GLuint(program_) : 0);
     glBindVertexArray(GLuint(vertexArray_));
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(drawFramebuffer_));
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, GLuint(drawIndirect_));
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, GLuint(dispatchIndirect_));
     glBindBuffer(GL_PIXEL_PACK_BUFFER, GLuint(pixelPack_));
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, GLuint(pixelUnpack_));
+    glBindBuffer(GL_QUERY_BUFFER, GLuint(query_));
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, GLuint(storage_));
     glBindBuffer(GL_UNIFORM_BUFFER, GLuint(uniform_));
     for (std::size_t i = 0; i < pixelStores; ++i)

@@ -63,7 +63,7 @@ class HostState {
     void restoreUnits() const;
 
     GLint program_, vertexArray_, drawFramebuffer_;
-    GLint drawIndirect_, dispatchIndirect_, pixelPack_, pixelUnpack_, storage_, uniform_;
+    GLint drawIndirect_, dispatchIndirect_, pixelPack_, pixelUnpack_, query_, storage_, uniform_;
     std::array<GLint, pixelStores> pixelStore_;
 
     std::array<bool, gl::unusedCapabilities.size()> unused_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/hosting/host_view.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "src/techniques/common/glm_types.h"
@@ -8,8 +10,8 @@
 namespace penumbra {
 namespace {
 
-void require(bool condition, const std::string& message) {
-    if (!condition) throw Error(Error::Kind::badArgument, "View: " + message);
+[[noreturn]] void refuse(const std::string& message) {
+    throw Error(Error::Kind::badArgument, "View: " + message);
 }
 
 GLint levelParameter(GLuint texture, GLenum name) {
@@ -32,34 +34,48 @@ glm::ivec2 sizeOf(GLuint texture) {
     return {levelParameter(texture, GL_TEXTURE_WIDTH), levelParameter(texture, GL_TEXTURE_HEIGHT)};
 }
 
-void requireTexture(const char* name, GLuint texture, const View& view) {
-    require(glIsTexture(texture),
-            std::string(name) + " " + std::to_string(texture) + " is no texture of the current context");
+void checkTexture(const char* name, GLuint texture, const View& view) {
+    if (!glIsTexture(texture)) {
+        refuse(std::string(name) + " " + std::to_string(texture) + " is no texture of the current context");
+    }
     const GLint target = targetOf(texture);
-    require(target == GL_TEXTURE_2D || target == GL_TEXTURE_2D_MULTISAMPLE,
-            std::string(name) + " is neither GL_TEXTURE_2D nor GL_TEXTURE_2D_MULTISAMPLE");
+    if (target != GL_TEXTURE_2D && target != GL_TEXTURE_2D_MULTISAMPLE) {
+        refuse(std::string(name) + " is neither GL_TEXTURE_2D nor GL_TEXTURE_2D_MULTISAMPLE");
+    }
     const glm::ivec2 size_px = sizeOf(texture);
-    require(view.x_px >= 0 && view.y_px >= 0 && view.width_px <= size_px.x - view.x_px &&
-                view.height_px <= size_px.y - view.y_px,
-            std::string(name) + " is " + std::to_string(size_px.x) + "x" + std::to_string(size_px.y) +
-                " and does not contain " + std::to_string(view.width_px) + "x" +
-                std::to_string(view.height_px) + " pixels from (" + std::to_string(view.x_px) + ", " +
-                std::to_string(view.y_px) + ")");
-    require(target == GL_TEXTURE_2D ||
-                (view.sample >= 0 && view.sample < levelParameter(texture, GL_TEXTURE_SAMPLES)),
-            std::string(name) + " has no sample " + std::to_string(view.sample));
+    if (view.x_px < 0 || view.y_px < 0 || view.width_px > size_px.x - view.x_px ||
+        view.height_px > size_px.y - view.y_px) {
+        refuse(std::string(name) + " is " + std::to_string(size_px.x) + "x" + std::to_string(size_px.y) +
+               " and does not contain " + std::to_string(view.width_px) + "x" +
+               std::to_string(view.height_px) + " pixels from (" + std::to_string(view.x_px) + ", " +
+               std::to_string(view.y_px) + ")");
+    }
+    if (target == GL_TEXTURE_2D_MULTISAMPLE &&
+        (view.sample < 0 || view.sample >= levelParameter(texture, GL_TEXTURE_SAMPLES))) {
+        refuse(std::string(name) + " has no sample " + std::to_string(view.sample));
+    }
 }
 
-/// The view of a camera that has its pixels' centres where this one has a sample at `place` of the pixel, in
-/// [0, 1]: a shift of clip space.
-Mat4 withSampleInTheCenter(const Mat4& clipFromView, const glm::dvec2& place, const View& view) {
-    const glm::dvec2 shift = 2.0 * (place - 0.5) / glm::dvec2(view.width_px, view.height_px);
-    Mat4 shifted = clipFromView;
-    for (auto& column : shifted.columns) {
-        column[0] = float(column[0] - shift.x * column[3]);
-        column[1] = float(column[1] - shift.y * column[3]);
+/// How far apart two depths are that a shader can tell from each other, where that is worst; 0 for reversed
+/// floats, which are as precise as the positions that are made of them.
+double depthStep(GLuint texture, bool reversed) {
+    constexpr int mantissa_bits = 24;
+    const double ofShader = reversed ? 0 : std::exp2(-mantissa_bits);
+    GLint type = GL_NONE;
+    glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH_TYPE, &type);
+    if (type != GL_UNSIGNED_NORMALIZED) return ofShader;
+    return std::max(ofShader, std::exp2(-levelParameter(texture, GL_TEXTURE_DEPTH_SIZE)));
+}
+
+/// The camera whose clip space lies `shift` (in normalised device coordinates) away: a point that this one
+/// sees at `ndc`, the result sees at ndc - shift.
+Mat4 shifted(const Mat4& clipFromView, const glm::dvec3& shift) {
+    Mat4 result = clipFromView;
+    for (auto& column : result.columns) {
+        for (std::size_t row = 0; row < 3; ++row)
+            column[row] = float(column[row] - shift[int(row)] * column[3]);
     }
-    return shifted;
+    return result;
 }
 
 }  // namespace
@@ -88,18 +104,26 @@ ReadableTexture::~ReadableTexture() {
 }
 
 void checkTextures(const View& view) {
-    require(view.width_px >= 1 && view.height_px >= 1, "width_px and height_px must be at least 1");
-    require(view.depthTexture != 0, "depthTexture is missing");
-    requireTexture("depthTexture", view.depthTexture, view);
-    if (view.normalTexture != 0) requireTexture("normalTexture", view.normalTexture, view);
-    if (view.receiverTexture != 0) requireTexture("receiverTexture", view.receiverTexture, view);
+    if (view.width_px < 1 || view.height_px < 1) refuse("width_px and height_px must be at least 1");
+    if (view.depthTexture == 0) refuse("depthTexture is missing");
+    checkTexture("depthTexture", view.depthTexture, view);
+    if (view.normalTexture != 0) checkTexture("normalTexture", view.normalTexture, view);
+    if (view.receiverTexture != 0) checkTexture("receiverTexture", view.receiverTexture, view);
 }
 
 View HostView::prepare(const View& view) {
     View plain = view;
+    glm::dvec3 shift(0);
     if (isMultisampled(view.depthTexture)) {
-        plain.clipFromView = withSampleInTheCenter(view.clipFromView, samplePlace(view), view);
+        // Techniques look at pixels' centres: there the sample is moved.
+        shift = glm::dvec3(2.0 * (samplePlace(view) - 0.5) / glm::dvec2(view.width_px, view.height_px), 0);
     }
+    // A depth stands for all that are rounded to it: the one nearest to the viewer is taken, so that no
+    // surface lies behind itself. Without this, 24 bits speckle where techniques compare exactly.
+    const double step = depthStep(view.depthTexture, view.depth.reversed);
+    shift.z = step * (view.depth.reversed ? 1 : -1) *
+              (view.depth.range == DepthConvention::Range::minusOneToOne ? 2 : 1);
+    if (shift != glm::dvec3(0)) plain.clipFromView = shifted(view.clipFromView, shift);
     plain.depthTexture = copied(view.depthTexture, depth_, GL_R32F, view);
     plain.normalTexture = copied(view.normalTexture, normals_, GL_RGBA32F, view);
     plain.receiverTexture = copied(view.receiverTexture, receivers_, GL_R8, view);
@@ -126,7 +150,11 @@ GLuint HostView::copied(GLuint texture, gl::Texture& copy, GLenum format, const 
 
 glm::dvec2 HostView::samplePlace(const View& view) {
     // Places are a framebuffer's to tell.
-    if (samples_.name() == 0) samples_ = gl::Framebuffer({}, nullptr, "host's samples");
+    if (samples_.name() == 0) {
+        GLuint name = 0;
+        glCreateFramebuffers(1, &name);
+        samples_ = gl::Handle<gl::deleteFramebuffer>(name);
+    }
     const bool isDepth = levelParameter(view.depthTexture, GL_TEXTURE_DEPTH_SIZE) > 0;
     const GLenum attachment = isDepth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0;
     glNamedFramebufferTexture(samples_.name(), attachment, view.depthTexture, 0);

@@ -47,7 +47,7 @@ class HostView {
     Device::Internals& device_;
     std::optional<TextureCopy> copy_;  ///< most hosts never need it
     gl::Texture depth_, normals_, receivers_;
-    gl::Framebuffer samples_;
+    gl::Handle<gl::deleteFramebuffer> samples_;
 };
 
 }  // namespace penumbra

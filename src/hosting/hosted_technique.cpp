@@ -17,7 +17,7 @@ void HostedTechnique::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
     checkTextures(inputs.view);
     const ReadableTexture depth(inputs.view.depthTexture), normals(inputs.view.normalTexture),
         receivers(inputs.view.receiverTexture);
-    VisibilityBuffer& written = writableAtTheOrigin(out);
+    VisibilityBuffer& written = plain(out);
     technique_->render({view_.prepare(inputs.view), inputs.light, inputs.casters}, written);
     deliver(written, out);
     // Whatever the host does with it next.
@@ -25,8 +25,8 @@ void HostedTechnique::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
                     GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
-VisibilityBuffer& HostedTechnique::writableAtTheOrigin(VisibilityBuffer& out) {
-    if (out.internals().startsAtTheOrigin()) return out;
+VisibilityBuffer& HostedTechnique::plain(VisibilityBuffer& out) {
+    if (out.internals().isPlain()) return out;
     if (!detour_ || detour_->colored() != out.colored()) {
         detour_.emplace(device_, out.width_px(), out.height_px(), out.colored());
     }

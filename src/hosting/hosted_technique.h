@@ -20,13 +20,14 @@ class HostedTechnique final : public Technique {
     Statistics statistics() const override;
 
   private:
-    VisibilityBuffer& writableAtTheOrigin(VisibilityBuffer& out);
+    VisibilityBuffer& plain(VisibilityBuffer& out);
     void deliver(const VisibilityBuffer& written, const VisibilityBuffer& out);
 
     Device& device_;
     std::unique_ptr<Technique> technique_;
     HostView view_;
-    std::optional<VisibilityBuffer> detour_;  ///< for rectangles within the host's texture
+    std::optional<VisibilityBuffer>
+        detour_;  ///< for rectangles of the host's textures, and formats of its own
     std::optional<TextureCopy> copy_;
 };
 

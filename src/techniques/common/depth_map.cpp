@@ -54,14 +54,15 @@ void DepthMap::render(std::span<const Caster> casters, const LightSpaceScene& sc
     count_ = int(cameras.size());
     allocate(mapSize_px, std::max(1, count_));
 
-    std::vector<LightCameraConstants> cameraConstants;
+    std::pmr::memory_resource* const memory = gl::LedgerScope::frameMemory();
+    std::pmr::vector<LightCameraConstants> cameraConstants(memory);
     for (const LightCamera& camera : cameras) cameraConstants.push_back(camera.constants(mapSize_px));
     cameras_.write(cameraConstants);
 
     // Which layers each caster is drawn into, list after list.
-    std::vector<CasterConstants> casterConstants;
-    std::vector<int> layers;
-    std::vector<int> listEnds;
+    std::pmr::vector<CasterConstants> casterConstants(memory);
+    std::pmr::vector<int> layers(memory);
+    std::pmr::vector<int> listEnds(memory);
     for (std::size_t i = 0; i < casters.size(); ++i) {
         const AlphaMask& mask = casters[i].alphaMask;
         casterConstants.push_back({scene.lightFromMesh[i], {mask.factor, mask.cutoff, 0, 0}});

@@ -14,9 +14,11 @@ namespace penumbra {
 namespace {
 
 using Polygon = ReceiverRegion::Polygon;
+using Polygons = ReceiverRegion::Polygons;
 
 /// The half-space of points p with dot(plane, (p, 1)) >= 0.
 using Plane = glm::dvec4;
+using Planes = InlineVector<Plane, 6>;
 
 double signedDistance(const Plane& plane, const glm::dvec3& p) {
     return glm::dot(plane, glm::dvec4(p, 1));
@@ -36,26 +38,30 @@ Polygon clip(const Polygon& polygon, const Plane& plane) {
     return result;
 }
 
-std::vector<Polygon> clip(std::vector<Polygon> polygons, std::span<const Plane> planes) {
-    for (const Plane& plane : planes) {
-        for (Polygon& polygon : polygons) polygon = clip(polygon, plane);
-        std::erase_if(polygons, [](const Polygon& polygon) { return polygon.empty(); });
+/// Adds to `result` what the planes leave of each.
+void clip(std::span<const Polygon> polygons, std::span<const Plane> planes, Polygons& result) {
+    for (Polygon polygon : polygons) {
+        for (const Plane& plane : planes) polygon = clip(polygon, plane);
+        if (!polygon.empty()) result.push_back(polygon);
     }
-    return polygons;
 }
 
 /// The faces of a hexahedron whose corner i has bit 0 for x, bit 1 for y, bit 2 for z.
-std::vector<Polygon> facesOf(const BoxCorners& c) {
-    return {{c[0], c[2], c[6], c[4]}, {c[1], c[5], c[7], c[3]}, {c[0], c[4], c[5], c[1]},
-            {c[2], c[3], c[7], c[6]}, {c[0], c[1], c[3], c[2]}, {c[4], c[6], c[7], c[5]}};
+std::array<Polygon, 6> facesOf(const BoxCorners& c) {
+    return {{{c[0], c[2], c[6], c[4]},
+             {c[1], c[5], c[7], c[3]},
+             {c[0], c[4], c[5], c[1]},
+             {c[2], c[3], c[7], c[6]},
+             {c[0], c[1], c[3], c[2]},
+             {c[4], c[6], c[7], c[5]}}};
 }
 
 /// Inward planes of the hexahedron's faces, oriented by its centre. A flat box has planes without a
 /// direction, which clip nothing.
-std::vector<Plane> planesOf(const BoxCorners& corners) {
+Planes planesOf(const BoxCorners& corners) {
     glm::dvec3 center(0);
     for (const glm::dvec3& corner : corners) center += corner / 8.0;
-    std::vector<Plane> planes;
+    Planes planes;
     for (const Polygon& face : facesOf(corners)) {
         const glm::dvec3 normal = glm::cross(face[2] - face[0], face[3] - face[1]);
         const double length = glm::length(normal);
@@ -81,7 +87,7 @@ BoxCorners cornersOf(const Box& box, const glm::dmat4& targetFromBox) {
 struct Frustum {
     BoxCorners corners;
     bool contains(const BoxCorners& box) const {
-        const std::vector<Plane> planes = planesOf(corners);
+        const Planes planes = planesOf(corners);
         return std::ranges::all_of(box, [&](const glm::dvec3& p) {
             return std::ranges::all_of(planes,
                                        [&](const Plane& plane) { return signedDistance(plane, p) >= 0; });
@@ -125,7 +131,7 @@ glm::dmat4 lookAlong(const glm::dvec3& axis, const glm::dvec3& upHint, const glm
 
 /// Grows the window around everything in `polygons` that the camera has in front of it, then by the border.
 /// Empty where nothing is.
-std::optional<LightCamera> fitWindow(LightCamera camera, const std::vector<Polygon>& polygons,
+std::optional<LightCamera> fitWindow(LightCamera camera, const Polygons& polygons,
                                      const LightCameraOptions& options) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     camera.windowMin = glm::dvec2(infinity);
@@ -189,7 +195,7 @@ LightCamera distantCamera(const LightSpaceScene& scene, const LightCameraOptions
 }  // namespace
 
 // M. Badoiu and K. Clarkson, Smaller core-sets for balls, 2003: step towards the farthest.
-glm::dvec3 coneAxis(const std::vector<glm::dvec3>& directions) {
+glm::dvec3 coneAxis(std::span<const glm::dvec3> directions) {
     glm::dvec3 axis = directions.front();
     for (int i = 1; i <= 64; ++i) {
         const auto farthest =
@@ -219,18 +225,22 @@ LightSpaceScene makeLightSpaceScene(const ShadowInputs& inputs, const glm::dmat4
 
     // Intersection of two convex bodies, by its surface: the faces of each, clipped by the other.
     const Frustum frustum = frustumOf(inputs.view, lightFromWorld, 1.001 * farthest_m + 1e-6);
-    const std::vector<Plane> frustumPlanes = planesOf(frustum.corners);
-    const std::array<Plane, 1> emissionSide = {Plane(0, 0, -1, 0)};
+    const Planes frustumPlanes = planesOf(frustum.corners);
+    const Plane emissionSide(0, 0, -1, 0);
+    // The planes that cut a body, and on one-sided lights the light's own.
+    const auto withEmission = [&](const Planes& planes) {
+        InlineVector<Plane, 7> result;
+        for (const Plane& plane : planes) result.push_back(plane);
+        if (isOneSided(inputs.light)) result.push_back(emissionSide);
+        return result;
+    };
     for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
         const BoxCorners& box = scene.boxes[i];
         if (!inputs.casters[i].receives || std::isnan(box[0].x)) continue;
-        std::vector<Polygon> pieces = clip(facesOf(box), frustumPlanes);
+        clip(facesOf(box), withEmission(frustumPlanes), scene.receivers.polygons);
         if (!frustum.contains(box)) {
-            const std::vector<Polygon> caps = clip(facesOf(frustum.corners), planesOf(box));
-            pieces.insert(pieces.end(), caps.begin(), caps.end());
+            clip(facesOf(frustum.corners), withEmission(planesOf(box)), scene.receivers.polygons);
         }
-        if (isOneSided(inputs.light)) pieces = clip(std::move(pieces), emissionSide);
-        scene.receivers.polygons.insert(scene.receivers.polygons.end(), pieces.begin(), pieces.end());
     }
     return scene;
 }
@@ -276,10 +286,10 @@ bool LightCamera::mightSee(const BoxCorners& box) const {
     return !std::isnan(box[0].x) && std::ranges::none_of(outside, [](bool all) { return all; });
 }
 
-std::vector<LightCamera> fitLightCameras(const AreaLight& light, const LightSpaceScene& scene,
-                                         const LightCameraOptions& options) {
-    std::vector<LightCamera> cameras;
-    const std::vector<Polygon>& receivers = scene.receivers.polygons;
+LightCameras fitLightCameras(const AreaLight& light, const LightSpaceScene& scene,
+                             const LightCameraOptions& options) {
+    LightCameras cameras;
+    const Polygons& receivers = scene.receivers.polygons;
     if (receivers.empty()) return cameras;
     if (light.shape == LightShape::distant) {
         if (auto camera = fitWindow(distantCamera(scene, options), receivers, options))
@@ -287,7 +297,7 @@ std::vector<LightCamera> fitLightCameras(const AreaLight& light, const LightSpac
         return cameras;
     }
 
-    std::vector<glm::dvec3> directions;
+    std::pmr::vector<glm::dvec3> directions(gl::LedgerScope::frameMemory());
     for (const Polygon& polygon : receivers) {
         for (const glm::dvec3& p : polygon) {
             if (p != options.originLight) directions.push_back(glm::normalize(p - options.originLight));
@@ -307,7 +317,8 @@ std::vector<LightCamera> fitLightCameras(const AreaLight& light, const LightSpac
                                        glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0)}) {
         const glm::dvec3 up = faceAxis.y == 0 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
         LightCamera camera{.faceFromLight = lookAlong(faceAxis, up, options.originLight)};
-        const std::vector<Polygon> inFace = clip(receivers, pyramidOf(camera.faceFromLight));
+        Polygons inFace(gl::LedgerScope::frameMemory());
+        clip(receivers, pyramidOf(camera.faceFromLight), inFace);
         if (auto fitted = fitWindow(camera, inFace, options)) cameras.push_back(*fitted);
     }
     return cameras;

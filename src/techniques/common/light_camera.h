@@ -9,15 +9,20 @@
 #include <vector>
 
 #include "penumbra/technique.h"
+#include "src/gl/gl.h"
+#include "src/techniques/common/inline_vector.h"
 #include "src/techniques/common/light_camera_io.h"
 
 namespace penumbra {
 
 /// What the light may shadow: the visible part of everything that receives, in light space.
 struct ReceiverRegion {
-    using Polygon = std::vector<glm::dvec3>;
+    /// A face of a hexahedron has four corners, and each of the planes that cut it (a frustum's or a box's six,
+    /// the light's, a cube face's four) adds one at most.
+    using Polygon = InlineVector<glm::dvec3, 16>;
+    using Polygons = std::pmr::vector<Polygon>;
     /// The surfaces of convex pieces, each the intersection of a receiver's box with the view frustum.
-    std::vector<Polygon> polygons;
+    Polygons polygons{gl::LedgerScope::frameMemory()};
 };
 
 /// Corners of a caster's bounding box in light space; none for an empty mesh.
@@ -25,8 +30,9 @@ using BoxCorners = std::array<glm::dvec3, 8>;
 
 /// The boxes of casters in light space, and the receivers among what the view sees.
 struct LightSpaceScene {
-    std::vector<BoxCorners> boxes;          ///< one a caster, in their order; empty meshes have NaN corners
-    std::vector<glm::dmat4> lightFromMesh;  ///< one a caster
+    /// One a caster, in their order; empty meshes have NaN corners.
+    std::pmr::vector<BoxCorners> boxes{gl::LedgerScope::frameMemory()};
+    std::pmr::vector<glm::dmat4> lightFromMesh{gl::LedgerScope::frameMemory()};  ///< one a caster
     ReceiverRegion receivers;
 };
 
@@ -34,7 +40,7 @@ struct LightSpaceScene {
 LightSpaceScene makeLightSpaceScene(const ShadowInputs& inputs, const glm::dmat4& lightFromWorld);
 
 /// The axis of the narrowest cone around unit vectors, nearly. There must be at least one.
-glm::dvec3 coneAxis(const std::vector<glm::dvec3>& directions);
+glm::dvec3 coneAxis(std::span<const glm::dvec3> directions);
 
 /// A camera in face space: x to the right, y up, z along the axis it looks. Perspective cameras have the
 /// light's point at the origin and a window in tangents (x/z, y/z); orthographic ones a window in metres.
@@ -58,10 +64,13 @@ struct LightCameraOptions {
     double margin = 0;          ///< added around each window, in tangents or metres
 };
 
+/// One, or a cube's faces.
+using LightCameras = InlineVector<LightCamera, 6>;
+
 /// Cameras that together see every receiver: one perspective where its field of view stays below 120 degrees,
 /// faces of a cube around the light where not, one orthographic camera for distant lights. Each window is
 /// fitted to the receivers in it. None where nothing receives.
-std::vector<LightCamera> fitLightCameras(const AreaLight& light, const LightSpaceScene& scene,
-                                         const LightCameraOptions& options);
+LightCameras fitLightCameras(const AreaLight& light, const LightSpaceScene& scene,
+                             const LightCameraOptions& options);
 
 }  // namespace penumbra

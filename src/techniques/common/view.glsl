@@ -21,13 +21,19 @@ vec3 positionLight(vec2 pixel, float depth) {
     return pos.xyz / pos.w;
 }
 
-// The step to a neighbour along `axis`, on the side where the depth changes less: the same surface, most likely.
+float depthAt(ivec2 pixel) { return texelFetch(viewDepth, clamp(pixel, ivec2(0), view.size_px.xy - 1), 0).r; }
+
+// The step to a neighbour along `axis`, on the side whose next two pixels lie in line with this one: the same face, most
+// likely. (Depths of a plane are linear over the picture, in perspective too.) Between equals, the nearer.
 vec3 tangentLight(ivec2 pixel, float depth, vec3 pos, ivec2 axis) {
-    ivec2 before = max(pixel - axis, ivec2(0));
-    ivec2 after = min(pixel + axis, view.size_px.xy - 1);
-    float depthBefore = texelFetch(viewDepth, before, 0).r;
-    float depthAfter = texelFetch(viewDepth, after, 0).r;
-    bool useAfter = before == pixel || (after != pixel && abs(depthAfter - depth) < abs(depthBefore - depth));
+    ivec2 before = pixel - axis, after = pixel + axis;
+    float depthBefore = depthAt(before), depthAfter = depthAt(after);
+    float bendBefore = abs(2.0 * depthBefore - depthAt(before - axis) - depth);
+    float bendAfter = abs(2.0 * depthAfter - depthAt(after + axis) - depth);
+    bool useAfter = any(lessThan(before, ivec2(0))) ||
+                    (all(lessThan(after, view.size_px.xy)) &&
+                     (bendAfter == bendBefore ? abs(depthAfter - depth) < abs(depthBefore - depth)
+                                              : bendAfter < bendBefore));
     return useAfter ? positionLight(after, depthAfter) - pos : pos - positionLight(before, depthBefore);
 }
 

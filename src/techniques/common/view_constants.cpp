@@ -5,7 +5,6 @@
 #include <string>
 
 #include "src/techniques/common/glm_types.h"
-#include "src/techniques/common/visibility_internals.h"
 
 namespace penumbra {
 namespace {
@@ -100,7 +99,8 @@ void ViewBinding::bind(const View& view, const glm::dmat4& lightFromWorldMatrix)
 }
 
 void bindVisibility(const VisibilityBuffer& out, unsigned unit) {
-    glBindImageTexture(unit, out.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY, out.internals().format);
+    glBindImageTexture(unit, out.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY,
+                       out.colored() ? GL_RGBA16F : GL_R32F);
 }
 
 std::vector<PassTime> passTimes(const gl::PassTimers& timers) {

@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "src/hosting/host_scope.h"
+#include "src/device_internals.h"
 #include "src/techniques/common/visibility_internals.h"
 
 namespace penumbra {
@@ -68,7 +68,7 @@ gl::Texture makeTexture(int width_px, int height_px, GLenum format) {
 
 VisibilityBuffer::VisibilityBuffer(Device& device, int width_px, int height_px, bool colored)
     : internals_(std::make_unique<Internals>()) {
-    requireContext(device.internals());
+    device.internals().requireContext();
     internals_->device = &device.internals();
     internals_->colored = colored;
     internals_->format = GLenum(colored ? GL_RGBA16F : GL_R32F);
@@ -77,7 +77,7 @@ VisibilityBuffer::VisibilityBuffer(Device& device, int width_px, int height_px, 
 
 VisibilityBuffer::VisibilityBuffer(Device& device, const HostTexture& host, bool colored)
     : internals_(std::make_unique<Internals>()) {
-    requireContext(device.internals());
+    device.internals().requireContext();
     requireSize(device.internals(), host.width_px, host.height_px);
     internals_->device = &device.internals();
     internals_->host = host;
@@ -90,10 +90,10 @@ VisibilityBuffer& VisibilityBuffer::operator=(VisibilityBuffer&&) noexcept = def
 VisibilityBuffer::~VisibilityBuffer() = default;
 
 void VisibilityBuffer::resize(int width_px, int height_px) {
-    requireContext(*internals_->device);
+    internals_->device->requireContext();
     requireSize(*internals_->device, width_px, height_px);
     require(internals_->host.texture == 0, "one that writes into the host's texture cannot be resized");
-    if (width_px == this->width_px() && height_px == this->height_px()) return;
+    if (texture() != 0 && width_px == this->width_px() && height_px == this->height_px()) return;
     const gl::LedgerScope scope(internals_->device->ledger);
     internals_->own = {};  // freed first, so that the two need not fit together
     internals_->own = makeTexture(width_px, height_px, internals_->format);

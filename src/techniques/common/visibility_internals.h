@@ -16,8 +16,10 @@ struct VisibilityBuffer::Internals {
     GLenum format = 0;
     bool colored = false;
 
-    /// Techniques write the pixel (x, y) into the texel (x, y): anything else needs a copy (src/hosting).
-    bool startsAtTheOrigin() const { return host.x_px == 0 && host.y_px == 0; }
+    /// Techniques write pixel (x, y) to texel (x, y), as bindVisibility says: anything else needs a copy.
+    bool isPlain() const {
+        return host.x_px == 0 && host.y_px == 0 && format == GLenum(colored ? GL_RGBA16F : GL_R32F);
+    }
 };
 
 }  // namespace penumbra

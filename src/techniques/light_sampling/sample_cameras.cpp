@@ -35,7 +35,7 @@ constexpr double cosineOfHalfField = 0.259;
 /// Whether every point of the box sees every receiver within that angle of the axis. The places from which
 /// one point is seen within a cone are a cone themselves and convex: the box's corners tell for all of it.
 bool fitsOneFace(const glm::dvec3& axis, std::span<const glm::dvec3> bounds,
-                 const std::vector<Polygon>& receivers) {
+                 std::span<const Polygon> receivers) {
     for (const Polygon& polygon : receivers) {
         for (const glm::dvec3& p : polygon) {
             for (const glm::dvec3& q : bounds) {
@@ -49,7 +49,7 @@ bool fitsOneFace(const glm::dvec3& axis, std::span<const glm::dvec3> bounds,
 /// Whether no receiver can lie in the pyramid that a cube's face sees, wherever in the box the cube's middle
 /// is.
 bool isEmptyFace(const glm::dmat3& faceFromLight, std::span<const glm::dvec3> bounds,
-                 const std::vector<Polygon>& receivers) {
+                 std::span<const Polygon> receivers) {
     const glm::dvec3 x = glm::row(faceFromLight, 0), y = glm::row(faceFromLight, 1),
                      z = glm::row(faceFromLight, 2);
     const std::array<glm::dvec3, 4> planes = {z - x, z + x, z - y, z + y};
@@ -66,7 +66,7 @@ bool isEmptyFace(const glm::dmat3& faceFromLight, std::span<const glm::dvec3> bo
 
 void SampleCameras::fit(const AreaLight& light, const LightSurface& surface,
                         std::span<const LightSample> samples, const LightSpaceScene& scene, int mapSize_px) {
-    const std::vector<Polygon>& polygons = scene.receivers.polygons;
+    const std::span<const Polygon> polygons = scene.receivers.polygons;
     faces = 0;
     isCube = false;
     orthographic = light.shape == LightShape::distant;

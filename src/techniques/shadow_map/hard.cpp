@@ -15,7 +15,7 @@ void HardShadowMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     checkInputs(inputs, out);
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
-    const std::vector<LightCamera> cameras =
+    const LightCameras cameras =
         fitLightCameras(inputs.light, scene, {.mapSize_px = mapSize_px_});
     {
         const auto pass = timers_.pass("hard/depth map");

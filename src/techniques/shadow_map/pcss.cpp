@@ -88,7 +88,7 @@ void Pcss::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const AreaLight light = scaled(inputs.light, lightScale_);
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
-    std::vector<LightCamera> cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px_});
+    LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px_});
     widenForLight(cameras, light, scene);
     updatePatterns(light);
     {

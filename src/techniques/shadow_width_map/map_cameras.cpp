@@ -43,8 +43,8 @@ void appendMatrix(std::vector<double>& key, const glm::dmat4& matrix) {
 
 }  // namespace
 
-std::vector<LightCamera> fitMapCameras(const AreaLight& light, const LightSpaceScene& scene, int mapSize_px) {
-    std::vector<LightCamera> cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px});
+LightCameras fitMapCameras(const AreaLight& light, const LightSpaceScene& scene, int mapSize_px) {
+    LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px});
     for (LightCamera& camera : cameras) {
         const glm::dvec2 center = 0.5 * (camera.windowMin + camera.windowMax);
         const glm::dvec2 extent = camera.windowMax - camera.windowMin;

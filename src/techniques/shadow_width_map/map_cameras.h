@@ -10,7 +10,7 @@ namespace penumbra {
 /// The cameras of fitLightCameras with square windows, so that a distance in the map is the same in all
 /// directions, and wide enough that blockers whose penumbra may reach a receiver are in the map (as far as a
 /// sixth of the window).
-std::vector<LightCamera> fitMapCameras(const AreaLight& light, const LightSpaceScene& scene, int mapSize_px);
+LightCameras fitMapCameras(const AreaLight& light, const LightSpaceScene& scene, int mapSize_px);
 
 /// Appends everything that the maps depend on but their parameters: equal numbers, equal maps.
 void appendMapKey(std::vector<double>& key, const ShadowInputs& inputs, const LightSpaceScene& scene,

@@ -88,7 +88,7 @@ void ShadowWidthMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     checkInputs(inputs, out);
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
-    const std::vector<LightCamera> cameras = fitMapCameras(inputs.light, scene, mapSize_px_);
+    const LightCameras cameras = fitMapCameras(inputs.light, scene, mapSize_px_);
 
     std::vector<double> key = {double(mode_), double(mapSize_px_), double(innerEdges_), double(neighbours_),
                                double(startDifference_)};

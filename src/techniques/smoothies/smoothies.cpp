@@ -219,9 +219,10 @@ void Smoothies::drawSmoothies() {
 }
 
 void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene,
-                         const std::vector<LightCamera>& cameras) {
+                         const LightCameras& cameras) {
     const auto casting = [&](auto&& which) {
-        std::vector<Caster> casters(inputs.casters.begin(), inputs.casters.end());
+        std::pmr::vector<Caster> casters(inputs.casters.begin(), inputs.casters.end(),
+                                         gl::LedgerScope::frameMemory());
         for (Caster& caster : casters) caster.casts = which(caster);
         return casters;
     };
@@ -245,7 +246,7 @@ void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scen
     }
     // What receives but is not in the depth map is drawn by itself: smoothies need to know how far away it
     // is.
-    const std::vector<Caster> receivers =
+    const std::pmr::vector<Caster> receivers =
         casting([](const Caster& caster) { return caster.receives && (!caster.casts || isMasked(caster)); });
     hasReceiverMap_ = hasSmoothies_ && std::ranges::any_of(receivers, &Caster::casts);
     if (hasReceiverMap_) {
@@ -260,7 +261,7 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const bool distant = light.shape == LightShape::distant;
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
-    const std::vector<LightCamera> cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px_});
+    const LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px_});
     hasSmoothies_ = hasSize(light) && !cameras.empty();
     drawMaps(inputs, scene, cameras);
 
@@ -272,7 +273,7 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
         allocate(layersPerCamera * int(cameras.size()));
         {
             const auto pass = timers_.pass("smoothies/silhouettes");
-            std::vector<SilhouetteSource> sources;
+            std::pmr::vector<SilhouetteSource> sources{gl::LedgerScope::frameMemory()};
             for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
                 const Caster& caster = inputs.casters[i];
                 if (caster.casts && !isMasked(caster))
@@ -331,7 +332,7 @@ void Smoothies::resolve(const AreaLight& light, const VisibilityBuffer& out) {
 }
 
 void Smoothies::resolveMasked(const ShadowInputs& inputs, const LightSpaceScene& scene,
-                              const std::vector<LightCamera>& cameras, const VisibilityBuffer& out) {
+                              const LightCameras& cameras, const VisibilityBuffer& out) {
     // The search for blockers is as wide as the nearest of them could make a penumbra.
     float nearestNearness = -std::numeric_limits<float>::infinity();
     for (const LightCamera& camera : cameras) {

@@ -32,7 +32,7 @@ class Smoothies final : public Technique {
     SmoothieConstants constantsOf(const AreaLight& light, const LightCamera& camera,
                                   const LightSpaceScene& scene) const;
     void drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene,
-                  const std::vector<LightCamera>& cameras);
+                  const LightCameras& cameras);
     void allocate(int layers);
     void buildSmoothies(bool distant);
     void bindConstants(int firstCamera) const;
@@ -42,7 +42,7 @@ class Smoothies final : public Technique {
     void useForPicture(const gl::Program& program, const AreaLight& light) const;
     void resolve(const AreaLight& light, const VisibilityBuffer& out);
     void resolveMasked(const ShadowInputs& inputs, const LightSpaceScene& scene,
-                       const std::vector<LightCamera>& cameras, const VisibilityBuffer& out);
+                       const LightCameras& cameras, const VisibilityBuffer& out);
 
     int mapSize_px_ = 1024;
     float t_ = 0;

@@ -84,7 +84,7 @@ void VolumeCounter::examineEye(const VolumeFrame& frame, Counting counting) {
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 
-    std::vector<CapCommand> commands;
+    std::pmr::vector<CapCommand> commands{gl::LedgerScope::frameMemory()};
     for (const SilhouetteSource& source : frame.sources) {
         commands.insert(commands.end(), 2, {GLuint(source.mesh->indices().size()), 0, 0, 0, 0});
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory_resource>
 #include <vector>
 
 #include "penumbra/technique.h"
@@ -15,12 +16,14 @@ namespace penumbra {
 struct VolumeFrame {
     glm::dmat4 lightFromWorld{1};
     VolumeConstants constants{};
-    std::vector<SilhouetteSource> sources;  ///< the casters that cast and have triangles
+    /// The casters that cast and have triangles.
+    std::pmr::vector<SilhouetteSource> sources{gl::LedgerScope::frameMemory()};
 
-    std::vector<int> layersEach;  ///< for each source: as how many layers a triangle of it counts
+    /// For each source: as how many layers a triangle of it counts.
+    std::pmr::vector<int> layersEach{gl::LedgerScope::frameMemory()};
 
     /// For each source: whether it may cut through the light, if that is flat.
-    std::vector<bool> cutsLight;
+    std::pmr::vector<bool> cutsLight = std::pmr::vector<bool>(gl::LedgerScope::frameMemory());
 
     /// A triangle may lie between the eye and a receiver without being seen: before the near plane, as it may
     /// in every orthographic view.

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+// Somebody else's renderer, with shadows: a VTK scene, drawn and lit by VTK, whose own depth buffer Penumbra
+// reads after each frame. What the lamp's light adds to a pixel is scaled by what of the lamp the pixel sees.
+//
+//     vtk_client [--technique NAME] [--screenshot picture.png] [--no-shadows]
+#include <epoxy/gl.h>
+#include <penumbra/penumbra.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkConeSource.h>
+#include <vtkCubeSource.h>
+#include <vtkCylinderSource.h>
+#include <vtkLight.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLRenderWindow.h>
+#include <vtkOpenGLState.h>
+#include <vtkPNGWriter.h>
+#include <vtkPlaneSource.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+#include <vtkSphereSource.h>
+#include <vtkSuperquadricSource.h>
+#include <vtkTextureObject.h>
+#include <vtkTriangleFilter.h>
+#include <vtkWindowToImageFilter.h>
+
+#include <array>
+#include <cstring>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace {
+
+penumbra::Mat4 toPenumbra(vtkMatrix4x4* matrix) {
+    penumbra::Mat4 result;
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) {
+            result.columns[std::size_t(column)][std::size_t(row)] = float(matrix->GetElement(row, column));
+        }
+    }
+    return result;
+}
+
+penumbra::Mesh toPenumbra(penumbra::Device& device, vtkPolyData* data) {
+    vtkNew<vtkTriangleFilter> triangles;
+    triangles->SetInputData(data);
+    triangles->PassLinesOff();
+    triangles->PassVertsOff();
+    triangles->Update();
+    vtkPolyData* const output = triangles->GetOutput();
+    std::vector<penumbra::Vec3> positions;
+    std::vector<std::uint32_t> indices;
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i) {
+        const double* const p = output->GetPoint(i);
+        positions.push_back({float(p[0]), float(p[1]), float(p[2])});
+    }
+    vtkNew<vtkIdList> cell;
+    for (vtkIdType i = 0; i < output->GetNumberOfCells(); ++i) {
+        output->GetCellPoints(i, cell);
+        for (vtkIdType corner = 0; corner < 3; ++corner)
+            indices.push_back(std::uint32_t(cell->GetId(corner)));
+    }
+    return penumbra::Mesh(device, {.positions = positions, .indices = indices});
+}
+
+/// A square lamp that hangs over the scene and looks down at it.
+struct Lamp {
+    double posWorld[3] = {1.2, 4.0, 1.6};
+    double targetWorld[3] = {0, 0, 0};
+    float width_m = 0.9f;
+
+    penumbra::AreaLight areaLight() const {
+        vtkNew<vtkCamera> lookingAlongIt;  // -Z, as lights do
+        lookingAlongIt->SetPosition(posWorld);
+        lookingAlongIt->SetFocalPoint(targetWorld);
+        lookingAlongIt->SetViewUp(0, 0, 1);
+        vtkNew<vtkMatrix4x4> worldFromLight;
+        vtkMatrix4x4::Invert(lookingAlongIt->GetModelViewTransformMatrix(), worldFromLight);
+        penumbra::AreaLight light;
+        light.width_m = light.height_m = width_m;
+        light.worldFromLight = toPenumbra(worldFromLight);
+        return light;
+    }
+};
+
+/// The lamp's shadows over whatever the renderer has drawn.
+class ShadowPass final : public vtkCommand {
+  public:
+    ShadowPass(std::string technique, const Lamp& lamp) : name_(std::move(technique)), lamp_(lamp) {}
+
+    void Execute(vtkObject* caller, unsigned long, void*) override {
+        auto* const renderer = static_cast<vtkRenderer*>(caller);
+        auto* const window = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow());
+        if (!device_) start(renderer);
+        const int* const size = window->GetSize();
+        if (!visibility_) visibility_.emplace(*device_, size[0], size[1]);
+        visibility_->resize(size[0], size[1]);
+        technique_->render({viewOf(renderer, window), lamp_.areaLight(), casters_}, *visibility_);
+        multiply(window);
+    }
+
+    /// While the window's context still lives.
+    void finish() {
+        meshes_.clear();
+        visibility_.reset();
+        technique_.reset();
+        device_.reset();
+    }
+
+  private:
+    void start(vtkRenderer* renderer) {
+        device_.emplace();
+        technique_ = penumbra::makeTechnique(*device_, name_);
+        vtkActorCollection* const actors = renderer->GetActors();
+        actors->InitTraversal();
+        while (vtkActor* const actor = actors->GetNextActor()) {
+            meshes_.push_back(std::make_unique<penumbra::Mesh>(
+                toPenumbra(*device_, vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput()))));
+            casters_.push_back(
+                {.mesh = meshes_.back().get(), .worldFromMesh = toPenumbra(actor->GetMatrix())});
+        }
+        const char* const vertex =
+            "#version 450\nvoid main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 "
+            "? 3.0 : "
+            "-1.0, 0.0, 1.0); }\n";
+        const char* const fragment =
+            "#version 450\nlayout(binding = 0) uniform sampler2D visibility; layout(location = 0) out vec4 "
+            "factor;\n"
+            "void main() { factor = vec4(mix(0.16, 1.0, texelFetch(visibility, ivec2(gl_FragCoord.xy), "
+            "0).r)); }\n";
+        program_ = glCreateProgram();
+        for (const auto& [stage, text] :
+             {std::pair{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}) {
+            const GLuint shader = glCreateShader(GLenum(stage));
+            glShaderSource(shader, 1, &text, nullptr);
+            glCompileShader(shader);
+            glAttachShader(program_, shader);
+            glDeleteShader(shader);
+        }
+        glLinkProgram(program_);
+        glCreateVertexArrays(1, &noVertices_);
+    }
+
+    //! [view]
+    static penumbra::View viewOf(vtkRenderer* renderer, vtkOpenGLRenderWindow* window) {
+        vtkCamera* const camera = renderer->GetActiveCamera();
+        penumbra::View view;
+        view.width_px = window->GetSize()[0];
+        view.height_px = window->GetSize()[1];
+        view.viewFromWorld = toPenumbra(camera->GetModelViewTransformMatrix());
+        view.clipFromView =
+            toPenumbra(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1));
+        view.depthTexture = window->GetRenderFramebuffer()->GetDepthAttachmentAsTextureObject()->GetHandle();
+        // As OpenGL has it since 1992: -1..1, near before far.
+        view.depth = {.range = penumbra::DepthConvention::Range::minusOneToOne, .reversed = false};
+        return view;
+    }
+    //! [view]
+
+    /// Scales the picture by the visibility, with VTK's state as VTK believes it to be.
+    void multiply(vtkOpenGLRenderWindow* window) const {
+        vtkOpenGLState* const state = window->GetState();
+        vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND), depth(state, GL_DEPTH_TEST);
+        vtkOpenGLState::ScopedglBlendFuncSeparate function(state);
+        state->vtkglEnable(GL_BLEND);
+        state->vtkglDisable(GL_DEPTH_TEST);
+        state->vtkglBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
+        GLint program = 0, vertexArray = 0, texture = 0, active = 0;
+        glGetIntegerv(GL_CURRENT_PROGRAM, &program);
+        glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &vertexArray);
+        glGetIntegerv(GL_ACTIVE_TEXTURE, &active);
+        glActiveTexture(GL_TEXTURE0);
+        glGetIntegerv(GL_TEXTURE_BINDING_2D, &texture);
+        glUseProgram(program_);
+        glBindVertexArray(noVertices_);
+        glBindTexture(GL_TEXTURE_2D, visibility_->texture());
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        glBindTexture(GL_TEXTURE_2D, GLuint(texture));
+        glActiveTexture(GLenum(active));
+        glBindVertexArray(GLuint(vertexArray));
+        glUseProgram(GLuint(program));
+    }
+
+    std::string name_;
+    Lamp lamp_;
+    std::optional<penumbra::Device> device_;
+    std::unique_ptr<penumbra::Technique> technique_;
+    std::optional<penumbra::VisibilityBuffer> visibility_;
+    std::vector<std::unique_ptr<penumbra::Mesh>> meshes_;
+    std::vector<penumbra::Caster> casters_;
+    GLuint program_ = 0, noVertices_ = 0;
+};
+
+template <typename Source>
+vtkActor* add(vtkRenderer* renderer, Source& source, const std::array<double, 3>& place,
+              const std::array<double, 3>& color) {
+    vtkNew<vtkPolyDataMapper> mapper;
+    source->Update();
+    mapper->SetInputData(source->GetOutput());
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    actor->SetPosition(place[0], place[1], place[2]);
+    actor->GetProperty()->SetColor(color[0], color[1], color[2]);
+    actor->GetProperty()->SetAmbient(0.1);
+    actor->GetProperty()->SetDiffuse(0.9);
+    renderer->AddActor(actor);
+    return actor;
+}
+
+void buildScene(vtkRenderer* renderer) {
+    vtkNew<vtkPlaneSource> ground;
+    ground->SetOrigin(-5, 0, -5);
+    ground->SetPoint1(-5, 0, 5);
+    ground->SetPoint2(5, 0, -5);
+    add(renderer, ground, {0, 0, 0}, {0.82, 0.82, 0.8});
+    vtkNew<vtkSuperquadricSource> torus;
+    torus->ToroidalOn();
+    torus->SetThickness(0.3);
+    torus->SetSize(0.9);
+    torus->SetThetaResolution(96);
+    torus->SetPhiResolution(48);
+    add(renderer, torus, {-1.2, 1.0, 0.2}, {0.85, 0.55, 0.3})->RotateX(55);
+    vtkNew<vtkSphereSource> sphere;
+    sphere->SetRadius(0.55);
+    sphere->SetThetaResolution(64);
+    sphere->SetPhiResolution(48);
+    add(renderer, sphere, {1.3, 0.55, -0.6}, {0.4, 0.6, 0.85});
+    vtkNew<vtkCylinderSource> pillar;
+    pillar->SetHeight(1.8);
+    pillar->SetRadius(0.16);
+    pillar->SetResolution(48);
+    add(renderer, pillar, {0.4, 0.9, -1.4}, {0.75, 0.75, 0.72});
+    vtkNew<vtkCubeSource> box;
+    box->SetXLength(0.8);
+    box->SetYLength(0.5);
+    box->SetZLength(0.8);
+    add(renderer, box, {0.9, 0.25, 1.3}, {0.5, 0.7, 0.45})->RotateY(30);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    std::string technique = "soft-volumes", screenshot;
+    bool shadows = true;
+    for (int i = 1; i < argc; ++i) {
+        const std::string flag = argv[i];
+        if (flag == "--no-shadows") shadows = false;
+        if (flag == "--technique" && i + 1 < argc) technique = argv[++i];
+        if (flag == "--screenshot" && i + 1 < argc) screenshot = argv[++i];
+    }
+
+    vtkNew<vtkRenderer> renderer;
+    buildScene(renderer);
+    renderer->SetBackground(0.55, 0.62, 0.7);
+    const Lamp lamp;
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToSceneLight();
+    light->SetPositional(true);
+    light->SetConeAngle(90);
+    light->SetPosition(lamp.posWorld[0], lamp.posWorld[1], lamp.posWorld[2]);
+    light->SetFocalPoint(lamp.targetWorld[0], lamp.targetWorld[1], lamp.targetWorld[2]);
+    renderer->AddLight(light);
+    renderer->GetActiveCamera()->SetPosition(3.2, 3.4, 5.2);
+    renderer->GetActiveCamera()->SetFocalPoint(0, 0.4, 0);
+    renderer->ResetCameraClippingRange();
+
+    vtkNew<vtkRenderWindow> window;
+    window->SetMultiSamples(0);
+    window->SetSize(640, 400);
+    window->SetOffScreenRendering(screenshot.empty() ? 0 : 1);
+    window->AddRenderer(renderer);
+
+    vtkNew<vtkRenderWindowInteractor> interactor;
+    interactor->SetRenderWindow(window);
+    //! [observer]
+    vtkSmartPointer<ShadowPass> pass = vtkSmartPointer<ShadowPass>::Take(new ShadowPass(technique, lamp));
+    if (shadows) renderer->AddObserver(vtkCommand::EndEvent, pass);
+    //! [observer]
+    // Twice, so that what the first frame leaves behind would show in the second.
+    window->Render();
+    window->Render();
+    if (screenshot.empty()) {
+        interactor->Start();
+    } else {
+        vtkNew<vtkWindowToImageFilter> picture;
+        picture->SetInput(window);
+        picture->ReadFrontBufferOff();
+        picture->ShouldRerenderOff();
+        vtkNew<vtkPNGWriter> writer;
+        writer->SetInputConnection(picture->GetOutputPort());
+        writer->SetFileName(screenshot.c_str());
+        writer->Write();
+    }
+    window->MakeCurrent();
+    pass->finish();
+    return 0;
+} catch (const penumbra::Error& error) {
+    std::cerr << error.what() << "\n";
+    return 1;
+}

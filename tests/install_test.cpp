@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is installed serves those who find it, by every route, from a prefix that nothing else is in; and the
+// examples, which are such users, show what they should.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "studio/image/image_io.h"
+
+namespace penumbra::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One prefix for all tests of the program.
+class Installed : public ::testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        folder = fs::temp_directory_path() / ("penumbra-install-" + std::to_string(::getpid()));
+        fs::create_directories(folder);
+        for (const char* component : {"library", "development"}) {
+            run("cmake --install " PENUMBRA_BUILD " --prefix " + prefix() + " --component " + component);
+        }
+    }
+    static void TearDownTestSuite() { fs::remove_all(folder); }
+
+    static std::string at(const std::string& name) { return (folder / name).string(); }
+    static std::string prefix() { return at("prefix"); }
+    static std::string source(const std::string& name) { return PENUMBRA_SOURCE_DIRECTORY "/" + name; }
+    static std::string library() {
+        for (const auto& entry : fs::recursive_directory_iterator(prefix())) {
+            if (entry.path().filename() == "libpenumbra.so") return entry.path().parent_path();
+        }
+        return {};
+    }
+
+    /// Fails the test, with what the command has said, unless it succeeds.
+    static bool run(const std::string& command) {
+        const bool done = std::system((command + " >" + at("log") + " 2>&1").c_str()) == 0;
+        std::ostringstream log;
+        if (!done) log << std::ifstream(at("log")).rdbuf();
+        EXPECT_TRUE(done) << command << "\n" << log.str();
+        return done;
+    }
+    static bool buildProject(const std::string& project, const std::string& name,
+                             const std::string& more = {}) {
+        return run("cmake -S " + project + " -B " + at(name) + " -DCMAKE_PREFIX_PATH=" + prefix() + " " +
+                   more) &&
+               run("cmake --build " + at(name));
+    }
+
+    static inline fs::path folder;
+};
+
+/// A square lamp over a box over the ground: the box's top sees all of it, the ground before the box most of
+/// it, and in the middle of the shadow there is none.
+void expectMinimalPicture(const std::string& path) {
+    const Image picture = readPng(path).image;
+    ASSERT_EQ(picture.width_px, 640);
+    const auto values = [&](float low, float high) {
+        return std::ranges::count_if(picture.values, [=](float v) { return v >= low && v <= high; });
+    };
+    const auto all = std::ptrdiff_t(picture.values.size());
+    EXPECT_GT(values(0.99f, 1), all / 2) << "lit";
+    EXPECT_GT(values(0, 0.05f), all / 500) << "umbra";
+    EXPECT_GT(values(0.1f, 0.9f), all / 100) << "penumbra";
+}
+
+TEST_F(Installed, IsFoundByCMake) {
+    ASSERT_TRUE(buildProject(source("examples/minimal"), "shared"));
+    ASSERT_TRUE(run(at("shared/minimal") + " " + at("shared.png")));
+    expectMinimalPicture(at("shared.png"));
+}
+
+TEST_F(Installed, IsFoundByCMakeAsStaticLibrary) {
+    ASSERT_TRUE(buildProject(source("tests/consumer"), "static",
+                             "-DMINIMAL_SOURCE=" + source("examples/minimal/minimal.cpp")));
+    ASSERT_TRUE(run(at("static/minimal") + " " + at("static.png")));
+    expectMinimalPicture(at("static.png"));
+    EXPECT_NE(std::system(("ldd " + at("static/minimal") + " | grep -q libpenumbra").c_str()), 0);
+}
+
+TEST_F(Installed, IsFoundByPkgConfig) {
+    const std::string packages =
+        "PKG_CONFIG_PATH=" + library() + "/pkgconfig pkg-config --cflags --libs penumbra ";
+    ASSERT_TRUE(run("c++ -std=c++20 " + source("examples/minimal/minimal.cpp") + " -o " +
+                    at("by-pkg-config") + " $(" + packages + "epoxy libpng) -Wl,-rpath," + library()));
+    ASSERT_TRUE(run(at("by-pkg-config") + " " + at("pkg-config.png")));
+    expectMinimalPicture(at("pkg-config.png"));
+}
+
+TEST_F(Installed, ShowsItsInterfaceAndNothingElse) {
+    // Any other name could clash with a host's. (Weak ones are the standard library's templates.)
+    const std::string symbols = "nm -DC --defined-only " + library() + "/libpenumbra.so | grep -E ' [TDBR] '";
+    EXPECT_NE(std::system((symbols + " | grep -qv penumbra::").c_str()), 0);
+    EXPECT_NE(std::system((symbols + " | grep -q 'penumbra::gl::'").c_str()), 0);
+    EXPECT_EQ(std::system((symbols + " | grep -q 'penumbra::makeTechnique'").c_str()), 0);
+}
+
+TEST_F(Installed, ServesAHostWithAWindow) {
+    if (std::system("which xvfb-run >/dev/null 2>&1") != 0) GTEST_SKIP() << "xvfb-run is missing";
+    ASSERT_TRUE(buildProject(source("examples/glfw_host"), "glfw"));
+    const auto picture = [&](const std::string& name, const std::string& flags) {
+        EXPECT_TRUE(run("xvfb-run -a " + at("glfw/glfw_host") + " --screenshot " + at(name) + " " + flags));
+        return readPng(at(name)).image;
+    };
+    const Image first = picture("one.png", "--frames 1 --technique pcss");
+    const Image third = picture("three.png", "--frames 3 --technique pcss");
+    const Image other = picture("other.png", "--frames 3 --technique soft-volumes");
+    ASSERT_EQ(first.values.size(), third.values.size());
+    const auto differing = [](const Image& a, const Image& b) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < a.values.size(); ++i) count += std::abs(a.values[i] - b.values[i]) > 0.1f;
+        return double(count) / double(a.values.size());
+    };
+    EXPECT_GT(differing(first, third), 0.001) << "ring, camera and lamp move";
+    // Two methods that have nothing in common but the answer: were the host's state not as it left it, or its
+    // deformed ring not the one that casts, they would part by more than penumbrae.
+    EXPECT_LT(differing(third, other), 0.02);
+    const auto dark = std::ranges::count_if(third.values, [](float v) { return v < 0.3f; });
+    EXPECT_GT(dark, std::ptrdiff_t(third.values.size()) / 50) << "a shadow";
+}
+
+/// Asked of CMake where it looks itself.
+bool hasVtk() {
+    const std::string probe =
+        "printf 'cmake_minimum_required(VERSION 3.25)\nproject(probe LANGUAGES C CXX)\nfind_package(VTK 9 "
+        "REQUIRED "
+        "COMPONENTS CommonCore)\n' >$d/CMakeLists.txt && cmake -S $d -B $d/build";
+    return std::system(
+               ("d=$(mktemp -d) && { (" + probe + ") >/dev/null 2>&1; s=$?; rm -r $d; exit $s; }").c_str()) ==
+           0;
+}
+
+TEST_F(Installed, ServesVtk) {
+    if (std::system("which xvfb-run >/dev/null 2>&1") != 0) GTEST_SKIP() << "xvfb-run is missing";
+    if (!hasVtk()) GTEST_SKIP() << "VTK 9 is missing (libvtk9-dev)";
+    ASSERT_TRUE(buildProject(source("examples/vtk_client"), "vtk"));
+    const auto picture = [&](const std::string& name, const std::string& flags) {
+        EXPECT_TRUE(run("xvfb-run -a " + at("vtk/vtk_client") + " --screenshot " + at(name) + " " + flags));
+        return readPng(at(name)).image;
+    };
+    const Image plain = picture("plain.png", "--no-shadows");
+    const Image shadowed = picture("shadowed.png", "--technique soft-volumes");
+    ASSERT_EQ(plain.values.size(), shadowed.values.size());
+    std::size_t same = 0, darker = 0, between = 0;
+    for (std::size_t i = 0; i < plain.values.size(); ++i) {
+        const float ratio = shadowed.values[i] / std::max(plain.values[i], 1.0f / 255);
+        same += ratio > 0.985f;
+        darker += ratio < 0.2f;
+        between += ratio > 0.25f && ratio < 0.9f;
+        EXPECT_LE(shadowed.values[i], plain.values[i] + 1.5f / 255) << "light where there was none";
+    }
+    const double all = double(plain.values.size());
+    EXPECT_GT(double(same) / all, 0.5) << "what sees the lamp is as VTK drew it";
+    EXPECT_GT(double(darker) / all, 0.01) << "umbra";
+    EXPECT_GT(double(between) / all, 0.01) << "penumbra";
+}
+
+}  // namespace
+}  // namespace penumbra::studio
