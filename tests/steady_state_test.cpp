@@ -100,10 +100,6 @@ INSTANTIATE_TEST_SUITE_P(Catalog, SteadyState, ::testing::ValuesIn(catalogNames(
 /// Small vectors that rooms still make on the CPU, each frame: none may be added.
 int knownAllocations(std::string_view technique) {
     if (technique == "shadow-width") return 7;
-    if (technique == "smoothies") return 5;
-    if (technique == "uniform") return 23;
-    if (technique == "adaptive") return 28;
-    if (technique == "hard-volumes" || technique == "soft-volumes") return 6;
     return 0;
 }
 

@@ -23,15 +23,24 @@ void EvaluationOptions::describe(ParameterVisitor& visitor) {
 SampleLookup::SampleLookup(Device& device, std::string file)
     : device_(device.internals()), file_(std::move(file)) {}
 
+std::vector<std::string> SampleLookup::Variant::defines() const {
+    std::vector<std::string> defines = {"FILTER " + std::to_string(filter)};
+    if (wishes.colored) defines.push_back("COLORED");
+    if (wishes.bits) defines.push_back("BITS");
+    if (wishes.smooth) defines.push_back("SMOOTH");
+    if (distant) defines.push_back("DISTANT");
+    if (sphere) defines.push_back("SPHERE");
+    if (cube) defines.push_back("CUBE");
+    return defines;
+}
+
 void SampleLookup::use(const AreaLight& light, const SampleCameras& cameras, const EvaluationOptions& options,
-                       std::vector<std::string> defines) {
-    defines.push_back("FILTER " + std::to_string(options.filter));
-    if (light.shape == LightShape::distant) defines.push_back("DISTANT");
-    if (light.shape == LightShape::sphere && light.radius_m > 0) defines.push_back("SPHERE");
-    if (cameras.isCube) defines.push_back("CUBE");
-    auto found = programs_.find(defines);
+                       const Wishes& wishes) {
+    const Variant variant{wishes, options.filter, light.shape == LightShape::distant,
+                          light.shape == LightShape::sphere && light.radius_m > 0, cameras.isCube};
+    auto found = programs_.find(variant);
     if (found == programs_.end()) {
-        found = programs_.emplace(defines, gl::Program(device_.shaders, {file_}, defines)).first;
+        found = programs_.emplace(variant, gl::Program(device_.shaders, {file_}, variant.defines())).first;
     }
     found->second.use();
     glUniform2f(5, float(cameras.near_m), float(cameras.far_m));
@@ -65,11 +74,8 @@ void SampleEvaluation::add(const ShadowInputs& inputs, const SampleCameras& came
         seen_.bindImage(1, GL_READ_WRITE);
         whole_.bindImage(2, GL_READ_WRITE);
     }
-    std::vector<std::string> defines;
-    if (out.colored()) defines.push_back("COLORED");
-    if (batch.usesBits) defines.push_back("BITS");
-    if (batch.taps > 0) defines.push_back("SMOOTH");
-    lookup_.use(inputs.light, cameras, options, std::move(defines));
+    lookup_.use(inputs.light, cameras, options,
+                {.colored = out.colored(), .bits = batch.usesBits, .smooth = batch.taps > 0});
     if (batch.taps > 0) glUniform1i(17, batch.taps);
     maps.bind();
     maps.setBatch(batch.stage, batch.batch);

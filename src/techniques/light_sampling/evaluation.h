@@ -2,6 +2,7 @@
 // Summing what receivers see of the samples whose maps are at hand (section 3.4.2 of the paper).
 #pragma once
 
+#include <compare>
 #include <map>
 #include <string>
 #include <string_view>
@@ -28,14 +29,30 @@ class SampleLookup {
   public:
     SampleLookup(Device& device, std::string file);
 
+    /// What a caller wants of a program.
+    struct Wishes {
+        bool colored = false;  ///< sums a channel each
+        bool bits = false;     ///< reads what was compared from shadow bits
+        bool smooth = false;   ///< filters between samples that disagree
+        auto operator<=>(const Wishes&) const = default;
+    };
+
     /// Makes the variant for this light current and sets uniforms 3 and 5 to 15 of sample_test.glsl.
     void use(const AreaLight& light, const SampleCameras& cameras, const EvaluationOptions& options,
-             std::vector<std::string> defines = {});
+             const Wishes& wishes);
 
   private:
+    struct Variant {
+        Wishes wishes;
+        int filter = 1;
+        bool distant = false, sphere = false, cube = false;
+        auto operator<=>(const Variant&) const = default;
+        std::vector<std::string> defines() const;
+    };
+
     Device::Internals& device_;
     std::string file_;
-    std::map<std::vector<std::string>, gl::Program> programs_;
+    std::map<Variant, gl::Program> programs_;
 };
 
 class SampleEvaluation {

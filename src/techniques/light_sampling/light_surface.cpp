@@ -50,7 +50,7 @@ LightSurface::LightSurface(const AreaLight& light, const LightSpaceScene& scene)
             isPoint_ = light.radius_m == 0;
     }
     if (light.shape != LightShape::sphere) return;
-    std::vector<glm::dvec3> directions;
+    std::pmr::vector<glm::dvec3> directions{gl::LedgerScope::frameMemory()};
     for (const ReceiverRegion::Polygon& polygon : scene.receivers.polygons) {
         for (const glm::dvec3& p : polygon) {
             // Whoever lies within the sphere sees all of its inside.
@@ -125,7 +125,7 @@ LightSample LightSurface::spherePoint(const glm::dvec2& disk) const {
             {}};
 }
 
-std::vector<glm::dvec3> LightSurface::bounds() const {
+InlineVector<glm::dvec3, 8> LightSurface::bounds() const {
     const double r = light_.radius_m;
     glm::dvec3 half(0);
     switch (light_.shape) {
@@ -141,17 +141,20 @@ std::vector<glm::dvec3> LightSurface::bounds() const {
         case LightShape::distant:
             return {};
     }
-    std::vector<glm::dvec3> corners;
+    InlineVector<glm::dvec3, 8> corners;
     for (int i = 0; i < 8; ++i) {
         corners.push_back(half * glm::dvec3((i & 1) ? 1 : -1, (i & 2) ? 1 : -1, (i & 4) ? 1 : -1));
     }
     return corners;
 }
 
-std::vector<PatternPoint> makePattern(SamplePattern pattern, int perSide, int seed, bool equalWeights) {
-    std::vector<PatternPoint> points;
+std::pmr::vector<PatternPoint> makePattern(SamplePattern pattern, int perSide, int seed, bool equalWeights) {
+    std::pmr::vector<PatternPoint> points{gl::LedgerScope::frameMemory()};
     const int count = perSide * perSide;
-    if (perSide == 1) return {PatternPoint{}};
+    if (perSide == 1) {
+        points.emplace_back();
+        return points;
+    }
     const auto fraction = [](double x) { return x - std::floor(x); };
     for (int i = 0; i < count; ++i) {
         const glm::dvec2 cell(i % perSide, i / perSide);

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory_resource>
 #include <vector>
 
+#include "src/techniques/common/inline_vector.h"
 #include "src/techniques/common/light_camera.h"
 #include "src/techniques/light_sampling/sampling_io.h"
 
@@ -26,7 +28,7 @@ class LightSurface {
     LightSample sampleWithSpans(const glm::dvec2& square, double cellSide) const;
 
     /// The corners of a box around all samples; of a distant light, nothing.
-    std::vector<glm::dvec3> bounds() const;
+    InlineVector<glm::dvec3, 8> bounds() const;
 
   private:
     LightSample spherePoint(const glm::dvec2& disk) const;
@@ -51,6 +53,6 @@ struct PatternPoint {
     double weight = 1;  ///< share of the square's area
 };
 
-std::vector<PatternPoint> makePattern(SamplePattern pattern, int perSide, int seed, bool equalWeights);
+std::pmr::vector<PatternPoint> makePattern(SamplePattern pattern, int perSide, int seed, bool equalWeights);
 
 }  // namespace penumbra

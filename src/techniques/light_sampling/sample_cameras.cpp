@@ -73,9 +73,9 @@ void SampleCameras::fit(const AreaLight& light, const LightSurface& surface,
     cameras.clear();
     if (polygons.empty()) return;
 
-    const std::vector<glm::dvec3> bounds = surface.bounds();
+    const InlineVector<glm::dvec3, 8> bounds = surface.bounds();
     double farthest = 0;
-    std::vector<glm::dvec3> directions;
+    std::pmr::vector<glm::dvec3> directions{gl::LedgerScope::frameMemory()};
     for (const Polygon& polygon : polygons) {
         for (const glm::dvec3& p : polygon) {
             farthest = std::max(farthest, glm::length(p));

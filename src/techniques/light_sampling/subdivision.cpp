@@ -101,7 +101,7 @@ void SubdivisionPasses::decide(const SampleMaps& maps, int round, const Subdivis
 void SubdivisionPasses::compare(const ShadowInputs& inputs, const SampleCameras& cameras,
                                 const SampleMaps& maps, const SubdivisionOptions& options, int stage,
                                 int batch) {
-    compare_.use(inputs.light, cameras, {});
+    compare_.use(inputs.light, cameras, {}, {});
     maps.bind();
     maps.setBatch(stage, batch);
     bits_.bindImage(0, GL_READ_WRITE);
