@@ -67,6 +67,7 @@ const std::vector<Watched>& watched() {
         watch<&epoxy_glReadPixels>("glReadPixels"),
         watch<&epoxy_glGetTextureImage>("glGetTextureImage"),
         watch<&epoxy_glGetTextureSubImage>("glGetTextureSubImage"),
+        watch<&epoxy_glGetNamedBufferSubData>("glGetNamedBufferSubData"),
         watch<&epoxy_glMapNamedBuffer>("glMapNamedBuffer"),
         watch<&epoxy_glMapNamedBufferRange>("glMapNamedBufferRange"),
         watch<&epoxy_glFinish>("glFinish"),
@@ -74,9 +75,11 @@ const std::vector<Watched>& watched() {
     return functions;
 }
 
-std::string callsCounted() {
+std::string callsCounted(std::string_view technique) {
     std::string text;
     for (const Watched& function : watched()) {
+        // It reads copies of earlier frames' numbers, once a fence has been passed: nobody waits.
+        if (technique == "adaptive" && function.name == std::string_view("glGetNamedBufferSubData")) continue;
         if (function.calls > 0)
             text += std::string(function.name) + " x" + std::to_string(function.calls) + "\n";
     }
@@ -126,7 +129,7 @@ TEST_P(SteadyState, AllocatesCompilesAndReadsNothing) {
     }
     for (const Watched& function : watched()) function.remove();
 
-    EXPECT_EQ(callsCounted(), "");
+    EXPECT_EQ(callsCounted(GetParam()), "");
     EXPECT_EQ(device().memory_bytes(), memory_bytes);
     EXPECT_LE(test::AllocationCount::allocations(), 4 * knownAllocations(GetParam())) << "in four frames";
 }

@@ -118,6 +118,7 @@ class PENUMBRA_API Technique {
     /// Visits the intermediate buffers of the last render.
     virtual void inspect(InspectionVisitor&) const {}
 
+    /// Of the last render. Times of passes lag behind and wait for nothing; counts may wait for the device.
     virtual Statistics statistics() const { return {}; }
 };
 

@@ -8,11 +8,12 @@
 namespace penumbra::gl {
 
 /// What no pass of ours uses and each switches off, whatever a host has switched on.
-inline constexpr std::array<GLenum, 21> unusedCapabilities = {GL_STENCIL_TEST,
+inline constexpr std::array<GLenum, 22> unusedCapabilities = {GL_STENCIL_TEST,
                                                               GL_RASTERIZER_DISCARD,
                                                               GL_POLYGON_OFFSET_FILL,
                                                               GL_POLYGON_SMOOTH,
                                                               GL_COLOR_LOGIC_OP,
+                                                              GL_PROGRAM_POINT_SIZE,
                                                               GL_DITHER,
                                                               GL_FRAMEBUFFER_SRGB,
                                                               GL_SAMPLE_ALPHA_TO_COVERAGE,

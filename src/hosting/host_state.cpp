@@ -86,6 +86,7 @@ bool hasAlphaTest() {
 void setKnownState() {
     gl::beginPass(0, {});
     glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
+    glPointSize(1);
     if (hasAlphaTest()) glDisable(alphaTest);
     for (const PixelStore& store : pixelStores) glPixelStorei(store.name, store.standard);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
@@ -151,6 +152,7 @@ void HostState::saveRaster() {
     clipOrigin_ = integer(GL_CLIP_ORIGIN);
     clipDepth_ = integer(GL_CLIP_DEPTH_MODE);
     provokingVertex_ = integer(GL_PROVOKING_VERTEX);
+    glGetFloatv(GL_POINT_SIZE, &pointSize_);
     glGetIntegerv(GL_POLYGON_MODE, polygonMode_.data());
     glGetBooleanv(GL_DEPTH_WRITEMASK, &depthMask_);
     for (std::size_t face = 0; face < stencil_.size(); ++face) {
@@ -190,6 +192,7 @@ void HostState::restoreRaster() const {
     glDepthFunc(GLenum(depthFunction_));
     glClipControl(GLenum(clipOrigin_), GLenum(clipDepth_));
     glProvokingVertex(GLenum(provokingVertex_));
+    glPointSize(pointSize_);
     if (isCompatibilityProfile_) {
         glPolygonMode(GL_FRONT, GLenum(polygonMode_[0]));
         glPolygonMode(GL_BACK, GLenum(polygonMode_[1]));

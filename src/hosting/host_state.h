@@ -70,6 +70,7 @@ class HostState {
     bool depthTest_, depthClamp_, cull_, alphaTest_ = false;
     GLint cullFace_, frontFace_, depthFunction_, clipOrigin_, clipDepth_, provokingVertex_;
     std::array<GLint, 2> polygonMode_;  // compatibility contexts tell front and back apart
+    GLfloat pointSize_;
     GLboolean depthMask_;
     std::array<std::array<GLint, 7>, 2> stencil_;  // front and back
     std::size_t viewportCount_, drawBufferCount_;
