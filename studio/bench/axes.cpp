@@ -62,6 +62,7 @@ AxisResult runAxis(Workbench& workbench, const AxisInfo& axis, std::span<const C
         std::vector<ContestResult> measured =
             runContest(workbench, moment, moment.cameras.front(), situation.size, now,
                        {.rounds = options.full ? 9 : 3,
+                        .warmUpRounds = options.full ? 2 : 1,
                         .patience_ms = options.full ? 120e3 : 4e3,
                         .progress = [&](double share) {
                             options.progress((double(i) + share) / double(values.size()));

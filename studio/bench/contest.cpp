@@ -10,8 +10,6 @@
 namespace penumbra::studio {
 namespace {
 
-constexpr int warmUpRounds = 2;
-
 /// One who competes: made on first use, so that its memory can be told from the others'.
 class Competitor {
   public:
@@ -106,7 +104,7 @@ std::vector<ContestResult> runContest(Workbench& workbench, const SceneMoment& m
     for (const Contender& contender : contenders) competitors.emplace_back(workbench, contender);
 
     std::vector<VisibilityBuffer> visibilities;
-    for (int round = -warmUpRounds; round < options.rounds; ++round) {
+    for (int round = -options.warmUpRounds; round < options.rounds; ++round) {
         const SceneMoment now = options.moving ? stirred(moment, round) : moment;
         workbench.scene().update(now);
         workbench.frame().draw(workbench.scene(), now, camera, size.width_px, size.height_px);
@@ -117,8 +115,8 @@ std::vector<ContestResult> runContest(Workbench& workbench, const SceneMoment& m
         }
         double yardstick_ms = 0;
         for (std::size_t i = 0; i < competitors.size(); ++i) {
-            options.progress((double(round + warmUpRounds) + double(i) / double(competitors.size())) /
-                             (options.rounds + warmUpRounds));
+            options.progress((double(round + options.warmUpRounds) + double(i) / double(competitors.size())) /
+                             (options.rounds + options.warmUpRounds));
             if (!competitors[i].competes(round, options)) continue;
             const double cost_ms = competitors[i].render(now, visibilities);
             if (i == 0) yardstick_ms = cost_ms;

@@ -39,6 +39,7 @@ struct ContestResult {
 
 struct ContestOptions {
     int rounds = 9;
+    int warmUpRounds = 2;
     /// Everything moves a little from round to round, so that nothing can be kept. False: all stands still,
     /// and what a technique keeps between frames counts for it.
     bool moving = true;
@@ -48,7 +49,7 @@ struct ContestOptions {
     std::function<void(double)> progress = [](double) {};
 };
 
-/// Rounds in which every contender renders all lights of `moment` once, after two rounds to warm up. The
+/// Rounds in which every contender renders all lights of `moment` once, after some to warm up. The
 /// first contender is the yardstick that ratios go by: `hard`. The scene of `moment` must be open.
 std::vector<ContestResult> runContest(Workbench& workbench, const SceneMoment& moment, const Camera& camera,
                                       PictureSize size, std::span<const Contender> contenders,

@@ -154,6 +154,7 @@ Comparison judge(Workbench& workbench, const Scene& scene, const SceneMoment& mo
         const std::unique_ptr<Technique> technique = make(workbench, contender);
         comparison.techniques.push_back(compareOne(
             truth, workbench.run(contender.label, *technique, moment, camera, size, options.timedRuns)));
+        options.inspect(contender, *technique);
     }
     if (options.flicker) {
         measureFlicker(workbench, scene, moment, camera, size, contenders, options, reference, comparison);
