@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "src/gl/buffer.h"
 #include "src/gl/texture.h"
 #include "studio/bench/axes.h"

@@ -6,23 +6,24 @@
 namespace penumbra::studio {
 namespace {
 
-/// A technique's knob and what to turn it to; both values of a pair are set to the same.
+/// A technique's knobs, all turned to the same, and what to.
 struct Ladder {
     std::string technique;
     std::vector<std::string> knobs;
-    std::vector<int> steps;
+    std::vector<std::string> steps;
 };
 
 const std::vector<Ladder>& ladders() {
-    static const std::vector<Ladder> all = {{"hard", {"map_size"}, {512, 2048}},
-                                            {"pcf", {"map_size"}, {512, 2048}},
-                                            {"pcss", {"search_samples", "filter_samples"}, {16, 64, 256}},
-                                            {"shadow-width", {"map_size"}, {512, 1024, 2048}},
-                                            {"smoothies", {"map_size"}, {512, 1024, 2048}},
-                                            {"uniform", {"samples"}, {3, 5, 9, 17}},
-                                            {"adaptive", {"max_depth"}, {2, 3, 4}},
-                                            {"soft-volumes", {"samples"}, {16, 64, 256}},
-                                            {"exact", {"samples"}, {16, 64, 256}}};
+    static const std::vector<Ladder> all = {
+        {"hard", {"map_size"}, {"512", "2048"}},
+        {"pcf", {"map_size"}, {"512", "2048"}},
+        {"pcss", {"search_samples", "filter_samples"}, {"16", "64", "256"}},
+        {"shadow-width", {"map_size"}, {"512", "1024", "2048"}},
+        {"smoothies", {"map_size"}, {"512", "1024", "2048"}},
+        {"uniform", {"samples"}, {"3", "5", "9", "17"}},
+        {"adaptive", {"max_error"}, {"0.1", "0.03", "0.01"}},
+        {"soft-volumes", {"samples"}, {"16", "64", "256"}},
+        {"exact", {"samples"}, {"16", "64", "256"}}};
     return all;
 }
 
@@ -41,12 +42,11 @@ void markFront(std::vector<QualityPoint>& points) {
 std::vector<Contender> qualityLadder() {
     std::vector<Contender> contenders = contendersOf({});
     for (const Ladder& ladder : ladders()) {
-        for (const int step : ladder.steps) {
+        for (const std::string& step : ladder.steps) {
             Contender& contender = contenders.emplace_back();
-            contender.label = ladder.technique + " " + std::to_string(step);
+            contender.label = ladder.technique + " " + step;
             contender.technique = ladder.technique;
-            for (const std::string& knob : ladder.knobs)
-                contender.settings.emplace_back(knob, std::to_string(step));
+            for (const std::string& knob : ladder.knobs) contender.settings.emplace_back(knob, step);
         }
     }
     return contenders;

@@ -61,28 +61,33 @@ Image readLayer(GLuint texture) {
     return image;
 }
 
-/// Channel by channel. Depths of a map without a far plane lie close together near 0, far from anything a
-/// screen could show as it is; a background (0, or whatever is not finite) must not take part.
-void stretch(Image& image) {
-    for (int channel = 0; channel < image.channels; ++channel) {
+/// 0 and, of depths, 1 are background: black.
+bool isBackground(float value, bool isDepth) {
+    return value == 0 || (isDepth && value == 1) || !(std::abs(value) < 1e30f);
+}
+
+/// Channel by channel. Depths lie close together, far from anything a screen could show as it is; shares of 1
+/// are shown as they are.
+void stretch(Image& image, bool isDepth) {
+    const auto channels = std::size_t(image.channels);
+    for (std::size_t channel = 0; channel < channels; ++channel) {
         std::vector<float> values;
-        for (std::size_t i = std::size_t(channel); i < image.values.size();
-             i += std::size_t(image.channels)) {
-            if (image.values[i] != 0 && std::abs(image.values[i]) < 1e30f) values.push_back(image.values[i]);
+        for (std::size_t i = channel; i < image.values.size(); i += channels) {
+            if (!isBackground(image.values[i], isDepth)) values.push_back(image.values[i]);
         }
         if (values.empty()) values = {0, 1};
         std::ranges::sort(values);
-        // What lies between 0 and 1 and uses most of it is shown as it is.
-        const bool isShare = values.front() >= 0 && values.back() <= 1 && values.back() > 0.5f;
+        const bool isShare = !isDepth && values.front() >= 0 && values.back() <= 1;
         const float low = isShare ? 0 : values[values.size() / 100];
         const float high = isShare ? 1 : values[values.size() - 1 - values.size() / 100];
         const float range = high > low ? high - low : 1;
-        for (std::size_t i = std::size_t(channel); i < image.values.size();
-             i += std::size_t(image.channels)) {
+        // Stretched values start a tenth above black, so that the least is told from the background.
+        const float foot = isShare ? 0 : 0.1f;
+        for (std::size_t i = channel; i < image.values.size(); i += channels) {
             const float value = image.values[i];
-            const bool shown = value != 0 && std::abs(value) < 1e30f;
-            // A tenth above black, so that the least value is told from the background.
-            image.values[i] = shown ? std::clamp(0.1f + 0.9f * (value - low) / range, 0.0f, 1.0f) : 0;
+            image.values[i] = isBackground(value, isDepth)
+                                  ? 0
+                                  : std::clamp(foot + (1 - foot) * (value - low) / range, 0.0f, 1.0f);
         }
     }
 }
@@ -95,7 +100,7 @@ std::optional<Image> bufferPicture(const Technique& technique, std::string_view 
     if (!finder.found || finder.found->texture == 0) return std::nullopt;
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     Image image = readLayer(finder.found->texture);
-    stretch(image);
+    stretch(image, levelParameter(finder.found->texture, GL_TEXTURE_DEPTH_SIZE) > 0);
     return image;
 }
 

@@ -68,8 +68,8 @@ std::string measurements(const FigureResult& result) {
     for (std::size_t i = 0; i < result.panels.size(); ++i) {
         const Panel& panel = result.figure.panels[i];
         const PanelResult& printed = result.panels[i];
-        if (panel.technique == "reference" || panel.show == Show::difference || !printed.missing.empty())
-            continue;
+        const bool measured = panel.show == Show::picture || panel.show == Show::visibility;
+        if (panel.technique == "reference" || !measured || !printed.missing.empty()) continue;
         if (!baseCost) baseCost = printed.cost_ms;
         if (!basePaper) basePaper = panel.paper;
         const auto costRatio =
@@ -83,8 +83,14 @@ std::string measurements(const FigureResult& result) {
                         optionalNumber(paperRatio, "{:.2f} x")});
     }
     if (!anything) return "";
-    const std::vector<std::string> header = {
+    std::vector<std::string> header = {
         "", "penumbra RMSE", "maps", "cost", "cost ratio", "the paper's", "paper's cost ratio"};
+    // Columns in which nothing stands say nothing.
+    for (std::size_t column = header.size(); column-- > 1;) {
+        if (std::ranges::any_of(rows, [&](const auto& row) { return !row[column].empty(); })) continue;
+        header.erase(header.begin() + std::ptrdiff_t(column));
+        for (std::vector<std::string>& row : rows) row.erase(row.begin() + std::ptrdiff_t(column));
+    }
     return html::table(header, rows);
 }
 

@@ -225,16 +225,17 @@ FigureResult Press::print(const Figure& figure) {
 
 TableResult Press::print(const Table& table) {
     TableResult result{.table = table, .cells = std::vector<CellResult>(table.cells.size()), .standIns = {}};
-    std::vector<Situation> situations;
+    // One contest a column, lest a whole table's maps are on the device at once.
+    std::vector<std::pair<Situation, std::string>> columns;
     for (const Cell& cell : table.cells) {
-        if (std::ranges::find(situations, cell.situation) == situations.end())
-            situations.push_back(cell.situation);
+        const std::pair column(cell.situation, cell.column);
+        if (std::ranges::find(columns, column) == columns.end()) columns.push_back(column);
     }
-    for (const Situation& situation : situations) {
+    for (const auto& [situation, column] : columns) {
         const StageView view = enter(situation, result.standIns);
         std::vector<Contender> contenders;
         for (std::size_t i = 0; i < table.cells.size(); ++i) {
-            if (table.cells[i].situation != situation) continue;
+            if (table.cells[i].situation != situation || table.cells[i].column != column) continue;
             const Contender contender{.label = std::to_string(i),
                                       .technique = table.cells[i].technique,
                                       .settings = table.cells[i].settings};

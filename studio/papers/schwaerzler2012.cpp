@@ -57,7 +57,7 @@ Paper schwaerzler2012() {
                     "M. Schwaerzler, O. Mattausch, D. Scherzer, M. Wimmer, Fast Accurate Soft Shadows with "
                     "Adaptive Light Source Sampling, VMV 2012",
                 .hardware = "Core i7-920, GeForce 580 GTX, 1024 x 768"};
-    const Situation far{.scene = "primitives", .zoom = 0.3f}, near{.scene = "primitives", .zoom = 1.5f},
+    const Situation far{.scene = "primitives", .zoom = 0.5f}, near{.scene = "primitives", .zoom = 1.5f},
         torus{.scene = "torus"}, sponza{.scene = "columns", .model = "sponza/Sponza.gltf"};
     paper.figures.push_back(
         {.id = "Figure 1",

@@ -138,7 +138,10 @@ class Drawing {
         svg += text(left, 22, "font-size=\"15\" font-weight=\"600\"", plot_.title);
         svg += axes();
         svg += polyline(plot_.front, "stroke=\"#999\" stroke-dasharray=\"6 4\" stroke-width=\"2\"");
-        for (std::size_t i = 0; i < plot_.series.size(); ++i) svg += seriesSvg(i);
+        int row = 0;
+        for (std::size_t i = 0; i < plot_.series.size(); ++i) {
+            if (!plot_.series[i].points.empty()) svg += seriesSvg(i, row++);
+        }
         return svg + "</svg>\n";
     }
 
@@ -185,7 +188,7 @@ class Drawing {
                             : fmt::format("<polyline points=\"{}\" fill=\"none\" {}/>\n", path, attributes);
     }
 
-    std::string seriesSvg(std::size_t index) const {
+    std::string seriesSvg(std::size_t index, int legendRow) const {
         const PlotSeries& series = plot_.series[index];
         const char* const color = colors[index % colors.size()];
         std::string svg;
@@ -202,7 +205,7 @@ class Drawing {
             if (!point.label.empty())
                 svg += text(x + 7, y_.pixel(point.y) - 5, "font-size=\"10\"", point.label);
         }
-        const double y = top + 10 + 18 * double(index);
+        const double y = top + 10 + 18.0 * legendRow;
         svg += marker(int(index), width - right + 16, y, color) + "\n";
         return svg + text(width - right + 28, y + 4, "", series.name);
     }

@@ -26,8 +26,8 @@ struct PlotAxis {
 struct Plot {
     std::string title;
     PlotAxis x, y;
-    std::vector<PlotSeries> series;  ///< colours go by their order, so that it should be the same everywhere
-    bool joined = true;              ///< false: points without lines
+    std::vector<PlotSeries> series;     ///< colours go by their order; those without points are not shown
+    bool joined = true;                 ///< false: points without lines
     std::vector<PlotPoint> front = {};  ///< drawn as a dashed line under the series
 };
 
