@@ -38,7 +38,9 @@ Figure compositing() {
     Figure figure{.id = "Figure 4",
                   .title = "A sphere's shadow-width map after more and more steps of compositing",
                   .judged = false,
-                  .note = "Each starting difference needs one step more than the one before it, times two."};
+                  .note =
+                      "A starting difference of 1/4 takes 2 steps, 1/16 takes 4, 1/64 takes 6 and 1/256 "
+                      "takes 8; the paper shows one after 4 to 8 steps."};
     const Situation sphere{.scene = "sphere"};
     figure.panels.push_back({.caption = "depth map, whose blockers are the inverted occlusion map",
                              .situation = sphere,
