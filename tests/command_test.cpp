@@ -239,6 +239,7 @@ TEST_F(CommandTest, FlickerNeedsSomethingThatMoves) {
     EXPECT_EQ(still.exitCode, 2);
     EXPECT_NE(still.err.find("no animation"), std::string::npos) << still.err;
     EXPECT_EQ(run(compare + "wind").exitCode, 2);
+    EXPECT_EQ(run("compare two-boxes --fail-above flicker=1").exitCode, 2) << "nothing was to be measured";
 
     const Outcome moving = run(compare + "light --fail-above flicker=0");
     EXPECT_EQ(moving.exitCode, 1) << "a hard edge that moves jumps from texel to texel";

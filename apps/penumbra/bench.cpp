@@ -53,8 +53,7 @@ void bench(const BenchArguments& arguments) {
         contendersOf(techniqueNames(arguments.techniques), parseSettings(arguments.settings));
     for (const Contender& contender : contenders) {
         // A wrong parameter ends here, not as a technique that is missing.
-        const std::unique_ptr<Technique> technique = opened.workbench.makeTechnique(contender.technique);
-        for (const auto& [name, value] : contender.settings) setParameter(*technique, name, value);
+        makeTechnique(opened.workbench, contender);
     }
 
     BenchReport report{.machine = thisMachine(opened.workbench),

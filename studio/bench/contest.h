@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,13 @@ struct Contender {
     std::string technique;
     std::vector<std::pair<std::string, std::string>> settings;
 };
+
+/// Makes a contender's technique and sets its parameters. Throws penumbra::Error.
+std::unique_ptr<Technique> makeTechnique(Workbench& workbench, const Contender& contender);
+
+/// The same, but nothing where the technique or a parameter does not exist: `missing` says which.
+std::unique_ptr<Technique> makeIfThere(Workbench& workbench, const Contender& contender,
+                                       std::string& missing);
 
 /// Of repeated measurements. All 0 of none.
 struct Spread {

@@ -58,15 +58,9 @@ class Press {
   private:
     /// The technique and its settings where they exist; else says so in `missing`.
     bool exists(const Contender& contender, std::string& missing) {
-        try {
-            const std::unique_ptr<Technique> technique = workbench_.makeTechnique(contender.technique);
-            for (const auto& [name, value] : contender.settings) setParameter(*technique, name, value);
-            return true;
-        } catch (const Error& error) {
-            if (error.kind() != Error::Kind::unknownName && error.kind() != Error::Kind::badArgument) throw;
-            missing = fmt::format("not yet: {}", error.what());
-            return false;
-        }
+        if (makeIfThere(workbench_, contender, missing) != nullptr) return true;
+        missing = "not yet: " + missing;
+        return false;
     }
 
     /// Opens the situation's scene unless it is open.
