@@ -13,7 +13,7 @@ namespace {
 
 std::string sentence(const ClaimResult& claim) {
     if (!claim.ours) return fmt::format("Not measured: {}.", claim.text);
-    std::string text = fmt::format("{}: {} ({:.2f} of it here",
+    std::string text = fmt::format("{}: {} (ratio {:.2f} here",
                                    claim.holds() ? "Holds" : "Does not hold here", claim.text, *claim.ours);
     if (claim.paper) text += fmt::format(", {:.2f} in the paper", *claim.paper);
     return text + ").";
@@ -98,7 +98,10 @@ std::string figureHtml(const FigureResult& result) {
     const Figure& figure = result.figure;
     std::string body = fmt::format("<h2>{}: {}</h2>\n", html::escape(figure.id), html::escape(figure.title));
     if (figure.plot) body += toSvg(figure.plot());
-    body += "<div class=\"row\">";
+    body += figure.columns > 0
+                ? fmt::format("<div class=\"row\" style=\"grid-template-columns: repeat({}, 1fr)\">",
+                              figure.columns)
+                : "<div class=\"row\">";
     for (std::size_t i = 0; i < result.panels.size(); ++i) {
         const PanelResult& printed = result.panels[i];
         body += printed.missing.empty()

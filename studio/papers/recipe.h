@@ -66,6 +66,7 @@ struct Figure {
     std::string title;  ///< what it shows, in our words
     std::vector<Panel> panels = {};
     std::vector<Claim> claims = {};
+    int columns = 0;                  ///< panels side by side; 0: as many as fit
     bool judged = true;               ///< errors against the ray-traced truth are measured
     std::string note = {};            ///< how it differs from the paper's
     std::function<Plot()> plot = {};  ///< a figure that is a formula

@@ -60,6 +60,7 @@ Figure edges() {
                                      .timed = true});
         }
     }
+    figure.columns = 4;
     figure.claims = {{"bicubic filtering costs more than a plain map (256)", Quantity::cost, 0, 1},
                      {"smoothies cost more than a plain map (256)", Quantity::cost, 0, 2}};
     return figure;
@@ -74,6 +75,7 @@ Figure lightSizes() {
             smoothies("smoothies, " + name, cylinder, with(published, "map_size", "1024")));
         figure.panels.push_back(truth(cylinder));
     }
+    figure.columns = 2;
     figure.claims = {{"the method works best where the light is small against the blocker",
                       Quantity::penumbraError, 0, 4}};
     return figure;
@@ -112,6 +114,7 @@ Figure gallery() {
                                           with(published, "map_size", "1024")));
         figure.panels.push_back(truth(model.situation));
     }
+    figure.columns = 3;
     for (std::size_t i = 0; i < figure.panels.size(); i += 3) {
         figure.claims.push_back({"smoothies are nearer to the truth than a plain map (" +
                                      figure.panels[i].caption.substr(6) + ")",
