@@ -9,10 +9,8 @@ namespace {
 // 17 x 17 samples with the light's corners; the paper's own test, weights and maps.
 const Settings fixedSamples = {
     {"samples", "17"}, {"pattern", "corners"}, {"weights", "equal"}, {"map_size", "512"}};
-const Settings published = {{"max_samples", "289"},
-                            {"max_depth", "4"},
-                            {"min_depth", "0"},
-                            {"weights", "paper"},
+const Settings published = {{"max_samples", "289"}, {"max_depth", "4"},  {"min_depth", "0"},
+                            {"weights", "paper"},   {"smooth", "false"}, {"reuse", "false"},
                             {"map_size", "512"}};
 const Settings pcssSettings = {{"search_samples", "64"}, {"filter_samples", "64"}, {"map_size", "512"}};
 
