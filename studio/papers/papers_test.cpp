@@ -30,7 +30,7 @@ TEST(Recipes, NameScenesAndPanelsThatExist) {
                 EXPECT_TRUE(scenes.contains(panel.situation.scene)) << panel.situation.scene;
                 EXPECT_FALSE(panel.caption.empty());
                 EXPECT_EQ(panel.show == Show::buffer, !panel.buffer.empty());
-                if (panel.against) EXPECT_LT(*panel.against, figure.panels.size());
+                EXPECT_LT(panel.against.value_or(0), figure.panels.size());
             }
             for (const Claim& claim : figure.claims) {
                 ASSERT_LT(claim.less, figure.panels.size());
