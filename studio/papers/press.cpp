@@ -65,7 +65,8 @@ class Press {
 
     /// Opens the situation's scene unless it is open.
     StageView enter(const Situation& situation, std::vector<std::string>& standIns) {
-        const std::string key = situation.scene + "|" + situation.model;
+        const std::string key =
+            situation.scene + "|" + situation.model + (situation.placement ? "|placed" : "");
         if (key != openKey_) {
             stage_ = std::make_unique<Stage>(openStage(situation, options_.models));
             workbench_.open(stage_->scene);

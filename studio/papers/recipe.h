@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,14 +16,23 @@ namespace penumbra::studio {
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
+/// Where a model has neither camera nor light of its own that would do: in its units.
+struct Placement {
+    glm::vec3 eye, target;         ///< the camera, and what it looks at
+    glm::vec3 light, lightTarget;  ///< a square light, and where it shines
+    float lightSize_m = 1;
+    bool operator==(const Placement&) const = default;
+};
+
 /// A scene and how it is looked at.
 struct Situation {
     std::string scene;  ///< a built-in one
     std::string model =
         {};  ///< a file below the folder of models that stands over a ground instead, where it is there
-    std::string camera = {};  ///< by name; empty: the first
-    float zoom = 1;           ///< of the camera: the tangent of its field of view divided by this
-    float lightScale = 1;     ///< of every light's size
+    std::optional<Placement> placement = {};  ///< of a model: a place to stand in, which gets no ground
+    std::string camera = {};                  ///< by name; empty: the first
+    float zoom = 1;        ///< of the camera: the tangent of its field of view divided by this
+    float lightScale = 1;  ///< of every light's size
     bool blockersReceive = true;
     double time_s = 0;
     bool operator==(const Situation&) const = default;

@@ -56,7 +56,15 @@ Paper schwaerzler2012() {
                     "Adaptive Light Source Sampling, VMV 2012",
                 .hardware = "Core i7-920, GeForce 580 GTX, 1024 x 768"};
     const Situation far{.scene = "primitives", .zoom = 0.5f}, near{.scene = "primitives", .zoom = 1.5f},
-        torus{.scene = "torus"}, sponza{.scene = "columns", .model = "sponza/Sponza.gltf"};
+        torus{.scene = "torus"},
+        sponza{.scene = "columns",
+               .model = "sponza/Sponza.gltf",
+               // Inside the atrium, under a light over its open roof.
+               .placement = Placement{.eye = {-11, 3, 0.5f},
+                                      .target = {2, 2.5f, -0.5f},
+                                      .light = {-2, 19, 1},
+                                      .lightTarget = {0, 0, 0},
+                                      .lightSize_m = 3}};
     paper.figures.push_back(
         {.id = "Figure 1",
          .title = "Fewer maps from afar, more from nearby",

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "studio/scene/builtin/mesh_kit.h"
+#include "studio/scene/builtin/placing.h"
 #include "studio/scene/open_scene.h"
 #include "studio/workbench/workbench.h"
 
@@ -54,7 +55,7 @@ Stage openStage(const Situation& situation, const std::filesystem::path& models)
         return {openScene(situation.scene), situation.scene};
     }
     Stage stage{openScene(file.string()), ""};
-    addGround(stage.scene);
+    if (!situation.placement) addGround(stage.scene);
     return stage;
 }
 
@@ -64,6 +65,12 @@ StageView viewOf(const Stage& stage, const Situation& situation) {
     const bool named = !situation.camera.empty() && stage.standIn.empty();
     view.camera =
         findCamera(view.moment, named ? std::optional<std::string>(situation.camera) : std::nullopt);
+    if (situation.placement && stage.standIn.empty()) {
+        const Placement& placement = *situation.placement;
+        view.camera = camera("placed", placement.eye, placement.target, 1.0f);
+        view.moment.lights = {rectLight("key", placement.lightSize_m, placement.lightSize_m, placement.light,
+                                        placement.lightTarget, 1000)};
+    }
     view.camera.yfov_rad = 2 * std::atan(std::tan(0.5f * view.camera.yfov_rad) / situation.zoom);
     for (Light& light : view.moment.lights) {
         for (float* size :
