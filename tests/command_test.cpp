@@ -217,6 +217,61 @@ TEST_F(CommandTest, CompareKeepsItsContract) {
     }
 }
 
+TEST_F(CommandTest, CompareRanksSeveralScenes) {
+    const Outcome outcome =
+        run("compare two-boxes torus -t hard,pcss --size 64x48 --samples 16 --json -o " + at("report"));
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto json = nlohmann::json::parse(outcome.out);
+    ASSERT_EQ(json.at("comparisons").size(), 2u);
+    EXPECT_EQ(json.at("comparisons").at(1).at("scene"), "torus");
+    ASSERT_EQ(json.at("ranking").size(), 2u);
+    EXPECT_EQ(json.at("ranking").at(0).at("technique"), "pcss");
+    EXPECT_EQ(json.at("ranking").at(1).at("ratio_to_hard"), 1);
+    EXPECT_EQ(files(), std::vector<std::string>{"report"});
+    for (const char* file : {"report.html", "tables.md", "two-boxes/pcss.png", "torus/report.html"})
+        EXPECT_TRUE(fs::exists(fs::path(at("report")) / file)) << file;
+    EXPECT_NE(readText(fs::path(at("report")) / "tables.md").find("| `torus` |"), std::string::npos);
+}
+
+TEST_F(CommandTest, FlickerNeedsSomethingThatMoves) {
+    const std::string compare = "compare two-boxes -t hard --size 48x32 --samples 4 --json --flicker ";
+    const Outcome still = run(compare + "animation");
+    EXPECT_EQ(still.exitCode, 2);
+    EXPECT_NE(still.err.find("no animation"), std::string::npos) << still.err;
+    EXPECT_EQ(run(compare + "wind").exitCode, 2);
+    EXPECT_EQ(run("compare two-boxes --fail-above flicker=1").exitCode, 2) << "nothing was to be measured";
+
+    const Outcome moving = run(compare + "light --fail-above flicker=0");
+    EXPECT_EQ(moving.exitCode, 1) << "a hard edge that moves jumps from texel to texel";
+    EXPECT_NE(moving.err.find("flicker is"), std::string::npos) << moving.err;
+    EXPECT_GT(nlohmann::json::parse(moving.out).at("results").at(0).at("flicker"), 0);
+}
+
+TEST_F(CommandTest, BenchKeepsItsContract) {
+    const Outcome outcome = run("bench two-boxes -t pcf --size 48x32 --rounds 2 --json -o " + at("bench"));
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto json = nlohmann::json::parse(outcome.out);
+    for (const char* key : {"machine", "renderer", "clock", "scene", "size", "motion", "results"})
+        EXPECT_TRUE(json.contains(key)) << key;
+    ASSERT_EQ(json.at("results").size(), 2u);
+    EXPECT_EQ(json.at("results").at(0).at("technique"), "hard") << "the yardstick comes along";
+    EXPECT_EQ(json.at("results").at(0).at("ratio_to_hard").at("median"), 1);
+    EXPECT_EQ(json.at("results").at(1).at("rounds"), 2);
+    for (const char* file : {"bench.json", "bench.csv", "tables.md", "report.html"})
+        EXPECT_TRUE(fs::exists(fs::path(at("bench")) / file)) << file;
+
+    EXPECT_EQ(run("bench two-boxes --axes weather").exitCode, 2);
+    EXPECT_EQ(run("bench two-boxes -t pcf --set magic=1 --size 48x32").exitCode, 2);
+}
+
+TEST_F(CommandTest, ReproduceRefusesWhatItDoesNotKnow) {
+    const Outcome paper = run("reproduce kajiya1986 -o " + at("out"));
+    EXPECT_EQ(paper.exitCode, 2);
+    EXPECT_NE(paper.err.find("kirsch2003"), std::string::npos) << paper.err;
+    EXPECT_EQ(run("reproduce thesis -o " + at("out") + " --models " + at("nowhere")).exitCode, 3);
+    EXPECT_TRUE(files().empty()) << "nothing half-written";
+}
+
 TEST_F(CommandTest, SecondCompareTakesTheReferenceFromTheCache) {
     const std::string compare = "compare torus -t hard --size 64x48 --samples 16 --json";
     const auto first = nlohmann::json::parse(run(compare).out);

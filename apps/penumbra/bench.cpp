@@ -6,7 +6,8 @@
 
 #include "apps/penumbra/arguments.h"
 #include "apps/penumbra/commands.h"
-#include "studio/bench/contest.h"
+#include "studio/bench/bench_report.h"
+#include "studio/errors.h"
 #include "studio/workbench/progress.h"
 
 namespace penumbra::studio {
@@ -16,65 +17,73 @@ struct BenchArguments {
     SceneArguments scene;
     std::string techniques = "all";
     std::vector<std::string> settings;
+    std::string axes;
+    std::string output;
     int rounds = 15;
+    int samples = 0;
     bool still = false;
+    bool full = false;
     bool json = false;
 };
 
-void printTable(const std::vector<ContestResult>& results, const Workbench& workbench) {
-    fmt::print("{:<14} {:>10} {:>19} {:>8} {:>9}   passes (ms)\n", "technique", "ms", "quartiles", "x hard",
-               "MB");
-    for (const ContestResult& result : results) {
-        std::string passes;
-        for (const auto& [name, ms] : result.passes_ms) passes += fmt::format("{} {:.2f}  ", name, ms);
-        fmt::print("{:<14} {:>10.3f} {:>9.3f} {:>9.3f} {:>8.2f} {:>9.2f}   {}\n", result.contender.label,
-                   result.cost_ms.median, result.cost_ms.low, result.cost_ms.high, result.ratio.median,
-                   1e-6 * double(result.memory_bytes), passes);
+/// "map,lights" or "all". Throws UsageError.
+std::vector<AxisInfo> parseAxes(const std::string& list) {
+    const std::span<const AxisInfo> known = benchAxes();
+    if (list == "all") return {known.begin(), known.end()};
+    std::vector<AxisInfo> axes;
+    for (const std::string& name : CLI::detail::split(list, ',')) {
+        if (name.empty()) continue;
+        const auto found = std::ranges::find(known, name, &AxisInfo::name);
+        if (found == known.end()) {
+            std::vector<std::string_view> names;
+            for (const AxisInfo& axis : known) names.push_back(axis.name);
+            throw UsageError(
+                fmt::format("there is no axis '{}'; there are: {}", name, fmt::join(names, ", ")));
+        }
+        axes.push_back(*found);
     }
-    fmt::print("{} on {}\n", workbench.clock().name(), workbench.renderer());
-}
-
-nlohmann::ordered_json toJson(const Spread& spread) {
-    return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
-}
-
-void printJson(const std::vector<ContestResult>& results, const BenchArguments& arguments, PictureSize size,
-               const Workbench& workbench) {
-    nlohmann::ordered_json json = {{"scene", arguments.scene.scene},
-                                   {"size", {size.width_px, size.height_px}},
-                                   {"renderer", workbench.renderer()},
-                                   {"clock", workbench.clock().name()},
-                                   {"motion", arguments.still ? "still" : "moving"},
-                                   {"results", nlohmann::json::array()}};
-    for (const ContestResult& result : results) {
-        json["results"].push_back({{"technique", result.contender.label},
-                                   {"rounds", result.rounds},
-                                   {"ms", toJson(result.cost_ms)},
-                                   {"ratio_to_hard", toJson(result.ratio)},
-                                   {"memory_bytes", result.memory_bytes},
-                                   {"passes_ms", result.passes_ms}});
-    }
-    std::cout << json.dump(2) << "\n";
+    return axes;
 }
 
 void bench(const BenchArguments& arguments) {
+    const std::vector<AxisInfo> axes = parseAxes(arguments.axes);
+    if (!arguments.output.empty()) requireWritableFolder(arguments.output, true);
     OpenedScene opened(arguments.scene);
     const std::vector<Contender> contenders =
         contendersOf(techniqueNames(arguments.techniques), parseSettings(arguments.settings));
     for (const Contender& contender : contenders) {
-        for (const auto& [name, value] : contender.settings)
-            setParameter(*opened.workbench.makeTechnique(contender.technique), name, value);
+        // A wrong parameter ends here, not as a technique that is missing.
+        makeTechnique(opened.workbench, contender);
     }
+
+    BenchReport report{.machine = thisMachine(opened.workbench),
+                       .scene = arguments.scene.scene,
+                       .size = opened.size,
+                       .moving = !arguments.still};
     Progress progress("bench");
-    const std::vector<ContestResult> results =
+    report.results =
         runContest(opened.workbench, opened.moment, opened.camera, opened.size, contenders,
-                   {.rounds = arguments.rounds, .moving = !arguments.still, .progress = [&](double fraction) {
-                        progress.update(fraction);
+                   {.rounds = arguments.rounds, .moving = report.moving, .progress = [&](double share) {
+                        progress.update(share, "scene");
                     }});
+    if (arguments.samples > 0) {
+        report.quality =
+            measureQuality(opened.workbench, opened.scene, opened.moment, opened.camera, opened.size,
+                           qualityLadder(), arguments.samples, arguments.rounds,
+                           [&](double share, const std::string& stage) { progress.update(share, stage); });
+    }
+    for (const AxisInfo& axis : axes) {
+        report.axes.push_back(runAxis(opened.workbench, axis, contenders,
+                                      {.full = arguments.full, .progress = [&](double share) {
+                                           progress.update(share, std::string(axis.name));
+                                       }}));
+    }
+
+    if (!arguments.output.empty()) writeBench(arguments.output, report);
     if (arguments.json) {
-        printJson(results, arguments, opened.size, opened.workbench);
+        std::cout << toJson(report).dump(2) << "\n";
     } else {
-        printTable(results, opened.workbench);
+        std::cout << toTable(report);
     }
 }
 
@@ -90,11 +99,23 @@ void addBench(CLI::App& app) {
         ->add_option("--set", arguments->settings,
                      "KEY=VALUE: a parameter of the techniques other than hard; may be repeated")
         ->take_all();
-    command->add_option("--rounds", arguments->rounds, "measured rounds")
+    command->add_option("--rounds", arguments->rounds, "measured rounds on SCENE")
         ->capture_default_str()
         ->check(CLI::Range(1, 10000));
     command->add_flag("--still", arguments->still,
                       "nothing moves from frame to frame: what techniques keep counts for them");
+    command
+        ->add_option(
+            "--samples", arguments->samples,
+            "also judge every technique at several qualities against so many rays a pixel: error against "
+            "cost")
+        ->check(CLI::Range(2, 65536));
+    command->add_option(
+        "--axes", arguments->axes,
+        "also measure generated scenes along: map, frame, triangles, lights, light-size; or all");
+    command->add_flag("--full", arguments->full, "more points and rounds on each axis");
+    command->add_option("-o,--output", arguments->output,
+                        "a folder for bench.json, bench.csv, tables.md, plots (SVG) and report.html");
     command->add_flag("--json", arguments->json, "print the result as JSON instead of a table");
     command->callback([arguments] { bench(*arguments); });
 }

@@ -10,6 +10,7 @@ namespace penumbra::studio {
 void addRender(CLI::App& app, const std::string& commandLine);
 void addCompare(CLI::App& app, const std::string& commandLine);
 void addBench(CLI::App& app);
+void addReproduce(CLI::App& app, const std::string& commandLine);
 void addInfo(CLI::App& app);
 void addList(CLI::App& app);
 

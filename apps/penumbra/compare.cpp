@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "apps/penumbra/arguments.h"
 #include "apps/penumbra/commands.h"
@@ -136,6 +137,9 @@ void compare(const CompareArguments& arguments, const std::string& commandLine) 
     const std::vector<std::string> scenes = sceneNames(arguments.scenes);
     const std::vector<Threshold> thresholds = parseThresholds(arguments.thresholds);
     const std::optional<FlickerMotion> flicker = parseFlicker(arguments.flicker);
+    if (!flicker && std::ranges::find(thresholds, "flicker", &Threshold::metric) != thresholds.end()) {
+        throw UsageError("--fail-above flicker needs --flicker, which says what moves");
+    }
     std::vector<Contender> contenders;
     for (const std::string& name : techniqueNames(arguments.techniques)) {
         contenders.push_back(
@@ -143,8 +147,15 @@ void compare(const CompareArguments& arguments, const std::string& commandLine) 
     }
     const bool alone = scenes.size() == 1;
     if (!arguments.output.empty()) {
-        for (const std::string& scene : scenes)
-            requireWritableFolder(folderOf(arguments.output, scene, alone), true);
+        std::set<std::filesystem::path> folders;
+        for (const std::string& scene : scenes) {
+            const std::filesystem::path folder = folderOf(arguments.output, scene, alone);
+            if (!folders.insert(folder).second) {
+                throw UsageError(
+                    fmt::format("two scenes would write to {}: compare them one by one", folder.string()));
+            }
+            requireWritableFolder(folder, true);
+        }
     }
 
     std::vector<Comparison> comparisons;

@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
     studio::addRender(app, commandLine);
     studio::addCompare(app, commandLine);
     studio::addBench(app);
+    studio::addReproduce(app, commandLine);
     studio::addInfo(app);
     studio::addList(app);
 

@@ -10,8 +10,6 @@
 namespace penumbra::studio {
 namespace {
 
-constexpr int warmUpRounds = 2;
-
 /// One who competes: made on first use, so that its memory can be told from the others'.
 class Competitor {
   public:
@@ -27,7 +25,8 @@ class Competitor {
     double render(const SceneMoment& moment, std::vector<VisibilityBuffer>& visibilities) {
         const bool first = technique_ == nullptr;
         const std::size_t before_bytes = first ? memoryInUse_bytes() : 0;
-        if (first && !make()) return 0;
+        if (first) technique_ = makeIfThere(workbench_, result_.contender, result_.missing);
+        if (technique_ == nullptr) return 0;
         result_.passes_ms.clear();
         double cost_ms = 0;
         for (std::size_t i = 0; i < moment.lights.size(); ++i) {
@@ -55,20 +54,6 @@ class Competitor {
     }
 
   private:
-    bool make() {
-        try {
-            technique_ = workbench_.makeTechnique(result_.contender.technique);
-            for (const auto& [name, value] : result_.contender.settings)
-                setParameter(*technique_, name, value);
-            return true;
-        } catch (const Error& error) {
-            if (error.kind() != Error::Kind::unknownName && error.kind() != Error::Kind::badArgument) throw;
-            technique_.reset();
-            result_.missing = error.what();
-            return false;
-        }
-    }
-
     Workbench& workbench_;
     ContestResult result_;
     std::unique_ptr<Technique> technique_;
@@ -92,6 +77,23 @@ SceneMoment stirred(const SceneMoment& moment, int round) {
 
 }  // namespace
 
+std::unique_ptr<Technique> makeTechnique(Workbench& workbench, const Contender& contender) {
+    std::unique_ptr<Technique> technique = workbench.makeTechnique(contender.technique);
+    for (const auto& [name, value] : contender.settings) setParameter(*technique, name, value);
+    return technique;
+}
+
+std::unique_ptr<Technique> makeIfThere(Workbench& workbench, const Contender& contender,
+                                       std::string& missing) {
+    try {
+        return makeTechnique(workbench, contender);
+    } catch (const Error& error) {
+        if (error.kind() != Error::Kind::unknownName && error.kind() != Error::Kind::badArgument) throw;
+        missing = error.what();
+        return nullptr;
+    }
+}
+
 Spread spreadOf(std::vector<double> values) {
     if (values.empty()) return {};
     std::ranges::sort(values);
@@ -106,7 +108,7 @@ std::vector<ContestResult> runContest(Workbench& workbench, const SceneMoment& m
     for (const Contender& contender : contenders) competitors.emplace_back(workbench, contender);
 
     std::vector<VisibilityBuffer> visibilities;
-    for (int round = -warmUpRounds; round < options.rounds; ++round) {
+    for (int round = -options.warmUpRounds; round < options.rounds; ++round) {
         const SceneMoment now = options.moving ? stirred(moment, round) : moment;
         workbench.scene().update(now);
         workbench.frame().draw(workbench.scene(), now, camera, size.width_px, size.height_px);
@@ -117,8 +119,8 @@ std::vector<ContestResult> runContest(Workbench& workbench, const SceneMoment& m
         }
         double yardstick_ms = 0;
         for (std::size_t i = 0; i < competitors.size(); ++i) {
-            options.progress((double(round + warmUpRounds) + double(i) / double(competitors.size())) /
-                             (options.rounds + warmUpRounds));
+            options.progress((double(round + options.warmUpRounds) + double(i) / double(competitors.size())) /
+                             (options.rounds + options.warmUpRounds));
             if (!competitors[i].competes(round, options)) continue;
             const double cost_ms = competitors[i].render(now, visibilities);
             if (i == 0) yardstick_ms = cost_ms;

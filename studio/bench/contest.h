@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,13 @@ struct Contender {
     std::string technique;
     std::vector<std::pair<std::string, std::string>> settings;
 };
+
+/// Makes a contender's technique and sets its parameters. Throws penumbra::Error.
+std::unique_ptr<Technique> makeTechnique(Workbench& workbench, const Contender& contender);
+
+/// The same, but nothing where the technique or a parameter does not exist: `missing` says which.
+std::unique_ptr<Technique> makeIfThere(Workbench& workbench, const Contender& contender,
+                                       std::string& missing);
 
 /// Of repeated measurements. All 0 of none.
 struct Spread {
@@ -39,6 +47,7 @@ struct ContestResult {
 
 struct ContestOptions {
     int rounds = 9;
+    int warmUpRounds = 2;
     /// Everything moves a little from round to round, so that nothing can be kept. False: all stands still,
     /// and what a technique keeps between frames counts for it.
     bool moving = true;
@@ -48,7 +57,7 @@ struct ContestOptions {
     std::function<void(double)> progress = [](double) {};
 };
 
-/// Rounds in which every contender renders all lights of `moment` once, after two rounds to warm up. The
+/// Rounds in which every contender renders all lights of `moment` once, after some to warm up. The
 /// first contender is the yardstick that ratios go by: `hard`. The scene of `moment` must be open.
 std::vector<ContestResult> runContest(Workbench& workbench, const SceneMoment& moment, const Camera& camera,
                                       PictureSize size, std::span<const Contender> contenders,

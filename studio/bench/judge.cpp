@@ -67,19 +67,13 @@ TechniqueComparison compareOne(const TechniqueResult& truth, TechniqueResult&& r
     return comparison;
 }
 
-std::unique_ptr<Technique> make(Workbench& workbench, const Contender& contender) {
-    std::unique_ptr<Technique> technique = workbench.makeTechnique(contender.technique);
-    for (const auto& [name, value] : contender.settings) setParameter(*technique, name, value);
-    return technique;
-}
-
 /// All frames of the motion, every technique in each, so that each technique keeps what it keeps between
 /// frames.
 void measureFlicker(Workbench& workbench, const Scene& scene, const SceneMoment& moment, const Camera& camera,
                     PictureSize size, std::span<const Contender> contenders, const JudgeOptions& options,
                     ReferenceTechnique& reference, Comparison& comparison) {
     std::vector<std::unique_ptr<Technique>> techniques;
-    for (const Contender& contender : contenders) techniques.push_back(make(workbench, contender));
+    for (const Contender& contender : contenders) techniques.push_back(makeTechnique(workbench, contender));
     std::vector<std::vector<FlickerMeter>> meters(contenders.size(),
                                                   std::vector<FlickerMeter>(moment.lights.size()));
     for (int frame = 0; frame < flickerFrames; ++frame) {
@@ -151,9 +145,10 @@ Comparison judge(Workbench& workbench, const Scene& scene, const SceneMoment& mo
                           .reference = summarize(truth, options.samples)};
     for (const Contender& contender : contenders) {
         options.progress(double(comparison.techniques.size()) / double(contenders.size()), "techniques");
-        const std::unique_ptr<Technique> technique = make(workbench, contender);
+        const std::unique_ptr<Technique> technique = makeTechnique(workbench, contender);
         comparison.techniques.push_back(compareOne(
             truth, workbench.run(contender.label, *technique, moment, camera, size, options.timedRuns)));
+        options.inspect(contender, *technique);
     }
     if (options.flicker) {
         measureFlicker(workbench, scene, moment, camera, size, contenders, options, reference, comparison);

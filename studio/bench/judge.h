@@ -24,6 +24,9 @@ struct JudgeOptions {
     int samples = 256;  ///< rays a pixel of the truth
     int timedRuns = 5;  ///< of each technique and light, in a view that stands still
     std::optional<FlickerMotion> flicker;
+    /// Called with each technique after its render, for its intermediate buffers.
+    std::function<void(const Contender&, const Technique&)> inspect = [](const Contender&, const Technique&) {
+    };
     /// Called with the share that is done and what is being done.
     std::function<void(double, const std::string&)> progress = [](double, const std::string&) {};
 };

@@ -52,6 +52,7 @@ class Workbench {
 
     Device& device() { return device_; }
     const std::string& renderer() const { return device_.renderer(); }
+    const std::string& version() const { return device_.version(); }
     const CostClock& clock() const { return clock_; }
     FrameRenderer& frame() { return frame_; }
     /// The scene that is open.

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// F. Kirsch, J. Doellner, "Real-Time Soft Shadows Using a Single Light Sample", Journal of WSCG 11(1), 2003.
+#include <algorithm>
+#include <array>
+
+#include "studio/papers/recipe.h"
+
+namespace penumbra::studio {
+namespace {
+
+const Settings published = {{"mode", "compositing"}, {"neighbours", "6"}, {"start_difference", "1/256"}};
+
+// The paper's scene of the performance study is not known; one map is enough for this one, too.
+const Situation studied{.scene = "overlapping-blockers"};
+
+Settings with(Settings settings, const std::string& name, const std::string& value) {
+    settings.emplace_back(name, value);
+    return settings;
+}
+
+// Figure 3: I(sd, sw) with c_scale = 1 and c_bias = 0.05.
+Plot attenuation() {
+    Plot plot{.title = "I(sd, sw), c_scale = 1, c_bias = 0.05",
+              .x = {.title = "shadow width sw"},
+              .y = {.title = "intensity I"}};
+    for (const double depth : {0.25, 0.5, 0.75, 1.0}) {
+        PlotSeries& series = plot.series.emplace_back();
+        series.name = "sd = " + std::to_string(depth).substr(0, 4);
+        for (int i = 0; i <= 20; ++i) {
+            const double width = i / 20.0;
+            series.points.push_back({.x = width, .y = std::clamp(1 + 0.05 - width / depth, 0.0, 1.0)});
+        }
+    }
+    return plot;
+}
+
+Figure compositing() {
+    Figure figure{.id = "Figure 4",
+                  .title = "A sphere's shadow-width map after more and more steps of compositing",
+                  .judged = false,
+                  .note =
+                      "A starting difference of 1/4 takes 2 steps, 1/16 takes 4, 1/64 takes 6 and 1/256 "
+                      "takes 8; the paper shows one after 4 to 8 steps."};
+    const Situation sphere{.scene = "sphere"};
+    figure.panels.push_back({.caption = "depth map, whose blockers are the inverted occlusion map",
+                             .situation = sphere,
+                             .technique = "shadow-width",
+                             .settings = with(published, "map_size", "256"),
+                             .show = Show::buffer,
+                             .buffer = "depth map"});
+    for (const char* start : {"1/4", "1/16", "1/64", "1/256"}) {
+        figure.panels.push_back({.caption = std::string("shadow-width map, starting difference ") + start,
+                                 .situation = sphere,
+                                 .technique = "shadow-width",
+                                 .settings = {{"mode", "compositing"},
+                                              {"neighbours", "6"},
+                                              {"start_difference", start},
+                                              {"map_size", "256"}},
+                                 .show = Show::buffer,
+                                 .buffer = "shadow-width map"});
+    }
+    return figure;
+}
+
+Table performance() {
+    Table table{
+        .id = "Table 1",
+        .title = "Cost by map size, everything updated every frame",
+        .unit = "fps",
+        .baselineRow = "hard shadows",
+        .note =
+            "The paper times whole frames of 512 x 512, we the shadows alone, so that our ratios must be "
+            "larger. Its scene is not known; ours is Figure 8's."};
+    struct Row {
+        const char* name;
+        std::string technique;
+        Settings settings;
+        std::array<double, 4> fps;
+    };
+    std::vector<Row> rows = {{"hard shadows", "hard", {}, {97.9, 79.8, 42.9, 17.0}},
+                             {"software",
+                              "shadow-width",
+                              {{"mode", "cpu-sweep"}, {"reuse_maps", "false"}},
+                              {61.6, 34.3, 12.6, 3.2}}};
+    struct Start {
+        const char* start;
+        std::array<double, 4> three, six;
+    };
+    static const std::vector<Start> starts = {{"1/4", {86.1, 56.4, 22.4, 7.0}, {77.4, 43.6, 15.1, 4.4}},
+                                              {"1/16", {77.5, 43.6, 15.2, 4.4}, {64.4, 30.0, 9.2, 2.5}},
+                                              {"1/64", {70.3, 35.5, 11.4, 3.2}, {54.9, 22.9, 6.6, 1.7}},
+                                              {"1/256", {64.0, 29.3, 8.8, 2.4}, {47.5, 17.8, 4.9, 1.3}}};
+    static std::vector<std::string> names;
+    names.clear();
+    names.reserve(2 * starts.size());
+    for (const Start& start : starts) {
+        for (const char* neighbours : {"3", "6"}) {
+            names.push_back(std::string("hardware ") + start.start + ", " + neighbours + " neighbours");
+            rows.push_back({names.back().c_str(),
+                            "shadow-width",
+                            {{"mode", "compositing"},
+                             {"neighbours", neighbours},
+                             {"start_difference", start.start},
+                             {"reuse_maps", "false"}},
+                            neighbours[0] == '3' ? start.three : start.six});
+        }
+    }
+    constexpr std::array sizes = {"256", "512", "1024", "2048"};
+    for (const Row& row : rows) {
+        for (std::size_t i = 0; i < sizes.size(); ++i) {
+            table.cells.push_back({.row = row.name,
+                                   .column = sizes[i],
+                                   .situation = studied,
+                                   .technique = row.technique,
+                                   .settings = with(row.settings, "map_size", sizes[i]),
+                                   .paper = row.fps[i]});
+        }
+    }
+    return table;
+}
+
+}  // namespace
+
+Paper kirsch2003() {
+    Paper paper{.name = "kirsch2003",
+                .citation =
+                    "F. Kirsch, J. Doellner, Real-Time Soft Shadows Using a Single Light Sample, Journal of "
+                    "WSCG 11(1), 2003",
+                .hardware = "Pentium IV 1.3 GHz, GeForce3 Ti200"};
+    const Situation torus{.scene = "torus"}, overlapping{.scene = "overlapping-blockers"},
+        disk{.scene = "disk-and-sphere"};
+    paper.figures.push_back(
+        {.id = "Figure 1",
+         .title = "A torus with a soft shadow, its depth map and its shadow-width map",
+         .panels = {{.caption = "published",
+                     .situation = torus,
+                     .technique = "shadow-width",
+                     .settings = published},
+                    {.caption = "depth map",
+                     .situation = torus,
+                     .technique = "shadow-width",
+                     .settings = published,
+                     .show = Show::buffer,
+                     .buffer = "depth map"},
+                    {.caption = "shadow-width map",
+                     .situation = torus,
+                     .technique = "shadow-width",
+                     .settings = published,
+                     .show = Show::buffer,
+                     .buffer = "shadow-width map"},
+                    {.caption = "improved (exact distances, both sides)",
+                     .situation = torus,
+                     .technique = "shadow-width"},
+                    {.caption = "ray-traced", .situation = torus, .technique = "reference"}},
+         .claims = {{"the improved maps are nearer to the truth than the published ones",
+                     Quantity::penumbraError, 3, 0}}});
+    paper.figures.push_back(
+        {.id = "Figure 3", .title = "The attenuation function", .judged = false, .plot = attenuation});
+    paper.figures.push_back(compositing());
+    paper.figures.push_back(
+        {.id = "Figure 5",
+         .title = "Artifacts due to overlapping blockers",
+         .panels = {{.caption = "published",
+                     .situation = overlapping,
+                     .technique = "shadow-width",
+                     .settings = published},
+                    {.caption = "improved", .situation = overlapping, .technique = "shadow-width"},
+                    {.caption = "exact", .situation = overlapping, .technique = "exact"},
+                    {.caption = "ray-traced", .situation = overlapping, .technique = "reference"}},
+         .claims = {{"one depth a texel fails where blockers overlap: visibility from triangles is nearer to "
+                     "the truth",
+                     Quantity::penumbraError, 2, 0}}});
+    Situation receiversOnly = overlapping;
+    receiversOnly.blockersReceive = false;
+    paper.figures.push_back(
+        {.id = "Figure 6",
+         .title = "Without self-shadowing, fewer artifacts",
+         .panels = {{.caption = "blockers receive",
+                     .situation = overlapping,
+                     .technique = "shadow-width",
+                     .settings = published},
+                    {.caption = "blockers do not receive",
+                     .situation = receiversOnly,
+                     .technique = "shadow-width",
+                     .settings = published}},
+         .claims = {{"there is less error without shadows on the blockers", Quantity::penumbraError, 1, 0}},
+         .note = "The paper also draws the blockers' back faces into the depth map."});
+    paper.figures.push_back(
+        {.id = "Figure 7",
+         .title = "Maps of 64 x 64 texels",
+         .panels = {{.caption = "published, 64 x 64",
+                     .situation = disk,
+                     .technique = "shadow-width",
+                     .settings = with(published, "map_size", "64")},
+                    {.caption = "published, 1024 x 1024",
+                     .situation = disk,
+                     .technique = "shadow-width",
+                     .settings = with(published, "map_size", "1024")},
+                    {.caption = "improved, 64 x 64",
+                     .situation = disk,
+                     .technique = "shadow-width",
+                     .settings = {{"map_size", "64"}}},
+                    {.caption = "ray-traced", .situation = disk, .technique = "reference"}}});
+    paper.figures.push_back({.id = "Figure 8",
+                             .title = "The scene of the performance study",
+                             .panels = {{.caption = "published",
+                                         .situation = studied,
+                                         .technique = "shadow-width",
+                                         .settings = published},
+                                        {.caption = "hard", .situation = studied, .technique = "hard"}},
+                             .note = "A stand-in: the paper's scene is not known."});
+    paper.tables.push_back(performance());
+    return paper;
+}
+
+}  // namespace penumbra::studio

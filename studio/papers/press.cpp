@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/papers/press.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "studio/bench/judge.h"
+#include "studio/metrics/difference_image.h"
+#include "studio/papers/buffer_picture.h"
+#include "studio/papers/stage.h"
+
+namespace penumbra::studio {
+namespace {
+
+/// What several panels or cells may share: a technique with its settings.
+std::string keyOf(const std::string& technique, const Settings& settings) {
+    std::string key = technique;
+    for (const auto& [name, value] : settings) key += " " + name + "=" + value;
+    return key;
+}
+
+/// All that was rendered and measured of one technique in one situation.
+struct Rendering {
+    std::string missing;
+    Image display;
+    std::vector<Image> visibilities;
+    std::map<std::string, Image> buffers;  ///< by the name that was asked for
+    std::optional<double> penumbraError, maps, cost_ms;
+};
+
+double meanPenumbraError(const TechniqueComparison& technique) {
+    double sum = 0;
+    for (const LightComparison& light : technique.lights) sum += light.metrics.penumbra_rmse;
+    return technique.lights.empty() ? 0 : sum / double(technique.lights.size());
+}
+
+/// How many times the scene was drawn for the first light.
+std::optional<double> mapsOf(const TechniqueComparison& technique) {
+    if (technique.lights.empty()) return std::nullopt;
+    for (const char* name : {"samples", "maps"}) {
+        for (const auto& [count, value] : technique.lights.front().counts) {
+            if (count == name) return value;
+        }
+    }
+    return std::nullopt;
+}
+
+class Press {
+  public:
+    Press(Workbench& workbench, const PressOptions& options) : workbench_(workbench), options_(options) {}
+
+    FigureResult print(const Figure& figure);
+    TableResult print(const Table& table);
+
+  private:
+    /// The technique and its settings where they exist; else says so in `missing`.
+    bool exists(const Contender& contender, std::string& missing) {
+        if (makeIfThere(workbench_, contender, missing) != nullptr) return true;
+        missing = "not yet: " + missing;
+        return false;
+    }
+
+    /// Opens the situation's scene unless it is open.
+    StageView enter(const Situation& situation, std::vector<std::string>& standIns) {
+        const std::string key =
+            situation.scene + "|" + situation.model + (situation.placement ? "|placed" : "");
+        if (key != openKey_) {
+            stage_ = std::make_unique<Stage>(openStage(situation, options_.models));
+            workbench_.open(stage_->scene);
+            openKey_ = key;
+        }
+        if (!stage_->standIn.empty()) {
+            const std::string text = fmt::format("{} for {}", stage_->standIn, situation.model);
+            if (std::ranges::find(standIns, text) == standIns.end()) standIns.push_back(text);
+        }
+        return viewOf(*stage_, situation);
+    }
+
+    std::map<std::string, double> costs(const StageView& view, std::vector<Contender> contenders);
+    std::map<std::string, Rendering> render(const Figure& figure, const Situation& situation,
+                                            std::vector<std::string>& standIns);
+
+    Workbench& workbench_;
+    const PressOptions& options_;
+    std::string openKey_;
+    std::unique_ptr<Stage> stage_;
+};
+
+/// By label; of those that exist.
+std::map<std::string, double> Press::costs(const StageView& view, std::vector<Contender> contenders) {
+    std::map<std::string, double> costs_ms;
+    if (contenders.empty()) return costs_ms;
+    contenders.insert(contenders.begin(), {.label = "yardstick", .technique = "hard", .settings = {}});
+    for (const ContestResult& result :
+         runContest(workbench_, view.moment, view.camera, options_.size, contenders,
+                    {.rounds = options_.rounds, .warmUpRounds = 1, .patience_ms = 6e3})) {
+        if (result.missing.empty()) costs_ms[result.contender.label] = result.cost_ms.median;
+    }
+    return costs_ms;
+}
+
+/// Everything that the figure wants of one situation, by keyOf().
+std::map<std::string, Rendering> Press::render(const Figure& figure, const Situation& situation,
+                                               std::vector<std::string>& standIns) {
+    const StageView view = enter(situation, standIns);
+    std::map<std::string, Rendering> renderings;
+    std::vector<Contender> contenders, timed;
+    std::map<std::string, std::vector<std::string>> buffers;
+    for (const Panel& panel : figure.panels) {
+        if (panel.situation != situation || panel.technique == "reference") continue;
+        const std::string key = keyOf(panel.technique, panel.settings);
+        const Contender contender{.label = key, .technique = panel.technique, .settings = panel.settings};
+        const bool first = !renderings.contains(key);
+        Rendering& rendering = renderings[key];
+        if (first && exists(contender, rendering.missing)) contenders.push_back(contender);
+        if (panel.show == Show::buffer) buffers[key].push_back(panel.buffer);
+        const bool known = std::ranges::find(timed, key, &Contender::label) != timed.end();
+        if ((panel.timed || panel.paper) && rendering.missing.empty() && !known) timed.push_back(contender);
+    }
+
+    const auto inspect = [&](const Contender& contender, const Technique& technique) {
+        for (const std::string& name : buffers[contender.label]) {
+            if (std::optional<Image> picture = bufferPicture(technique, name))
+                renderings[contender.label].buffers[name] = std::move(*picture);
+        }
+    };
+    Comparison comparison =
+        judge(workbench_, stage_->scene, view.moment, view.camera, options_.size, contenders,
+              {.samples = options_.samples, .timedRuns = 0, .inspect = inspect});
+    for (TechniqueComparison& technique : comparison.techniques) {
+        Rendering& rendering = renderings[technique.technique];
+        if (figure.judged) rendering.penumbraError = meanPenumbraError(technique);
+        rendering.maps = mapsOf(technique);
+        rendering.display = std::move(technique.display);
+        for (LightComparison& light : technique.lights)
+            rendering.visibilities.push_back(std::move(light.visibility));
+    }
+    Rendering& truth = renderings["reference"];
+    truth.display = std::move(comparison.reference.display);
+    truth.visibilities = std::move(comparison.reference.visibilities);
+    for (const auto& [key, cost_ms] : costs(view, timed)) renderings[key].cost_ms = cost_ms;
+    return renderings;
+}
+
+FigureResult Press::print(const Figure& figure) {
+    FigureResult result{.figure = figure, .panels = {}, .claims = {}, .standIns = {}};
+    std::vector<std::pair<Situation, std::map<std::string, Rendering>>> all;
+    const auto in = [&](const Situation& situation) -> std::map<std::string, Rendering>& {
+        const auto found = std::ranges::find_if(all, [&](const auto& one) { return one.first == situation; });
+        if (found != all.end()) return found->second;
+        return all.emplace_back(situation, render(figure, situation, result.standIns)).second;
+    };
+    const auto renderingOf = [&](const Panel& panel) -> const Rendering& {
+        return in(panel.situation)[keyOf(panel.technique, panel.settings)];
+    };
+
+    for (const Panel& panel : figure.panels) {
+        const Rendering& rendering = renderingOf(panel);
+        PanelResult& printed = result.panels.emplace_back();
+        printed.missing = rendering.missing;
+        if (!rendering.missing.empty()) continue;
+        printed.cost_ms = rendering.cost_ms;
+        printed.penumbraError = rendering.penumbraError;
+        printed.maps = rendering.maps;
+        switch (panel.show) {
+            case Show::picture:
+                printed.image = rendering.display;
+                break;
+            case Show::visibility:
+                printed.image = rendering.visibilities.front();
+                break;
+            case Show::buffer: {
+                const auto found = rendering.buffers.find(panel.buffer);
+                if (found == rendering.buffers.end()) {
+                    printed.missing =
+                        fmt::format("not yet: {} shows no buffer '{}'", panel.technique, panel.buffer);
+                } else {
+                    printed.image = found->second;
+                }
+                break;
+            }
+            case Show::difference: {
+                const Rendering& base = panel.against ? renderingOf(figure.panels[*panel.against])
+                                                      : in(panel.situation)["reference"];
+                if (!base.missing.empty()) {
+                    printed.missing = base.missing;
+                } else {
+                    printed.image = differenceImage(base.visibilities.front(), rendering.visibilities.front(),
+                                                    panel.gain);
+                }
+                break;
+            }
+        }
+    }
+    for (const Claim& claim : figure.claims) {
+        ClaimResult& judged = result.claims.emplace_back();
+        judged.text = claim.text;
+        const PanelResult &less = result.panels[claim.less], &more = result.panels[claim.more];
+        const auto ratio = [](const std::optional<double>& a, const std::optional<double>& b) {
+            return a && b && *b > 0 ? std::optional<double>(*a / *b) : std::nullopt;
+        };
+        switch (claim.quantity) {
+            case Quantity::cost:
+                judged.ours = ratio(less.cost_ms, more.cost_ms);
+                judged.paper = ratio(figure.panels[claim.more].paper, figure.panels[claim.less].paper);
+                break;
+            case Quantity::penumbraError:
+                judged.ours = ratio(less.penumbraError, more.penumbraError);
+                break;
+            case Quantity::maps:
+                judged.ours = ratio(less.maps, more.maps);
+                break;
+        }
+    }
+    return result;
+}
+
+TableResult Press::print(const Table& table) {
+    TableResult result{.table = table, .cells = std::vector<CellResult>(table.cells.size()), .standIns = {}};
+    // One contest a column, lest a whole table's maps are on the device at once.
+    std::vector<std::pair<Situation, std::string>> columns;
+    for (const Cell& cell : table.cells) {
+        const std::pair column(cell.situation, cell.column);
+        if (std::ranges::find(columns, column) == columns.end()) columns.push_back(column);
+    }
+    for (const auto& [situation, column] : columns) {
+        const StageView view = enter(situation, result.standIns);
+        std::vector<Contender> contenders;
+        for (std::size_t i = 0; i < table.cells.size(); ++i) {
+            if (table.cells[i].situation != situation || table.cells[i].column != column) continue;
+            const Contender contender{.label = std::to_string(i),
+                                      .technique = table.cells[i].technique,
+                                      .settings = table.cells[i].settings};
+            if (exists(contender, result.cells[i].missing)) contenders.push_back(contender);
+        }
+        const std::map<std::string, double> measured = costs(view, contenders);
+        for (const Contender& contender : contenders) {
+            result.cells[std::size_t(std::stoi(contender.label))].cost_ms = measured.at(contender.label);
+        }
+    }
+
+    const auto paperCost = [&](const Cell& cell) {
+        return table.unit == "fps" ? 1 / cell.paper : cell.paper;
+    };
+    for (std::size_t i = 0; i < table.cells.size(); ++i) {
+        const auto base = std::ranges::find_if(table.cells, [&](const Cell& cell) {
+            return table.baselineRow.empty() ||
+                   (cell.row == table.baselineRow && cell.column == table.cells[i].column);
+        });
+        const auto baseIndex = std::size_t(base - table.cells.begin());
+        const double base_ms = result.cells[baseIndex].cost_ms;
+        result.cells[i].paper = paperCost(table.cells[i]) / paperCost(*base);
+        if (base_ms > 0) result.cells[i].ours = result.cells[i].cost_ms / base_ms;
+    }
+    return result;
+}
+
+}  // namespace
+
+PaperResult reproduce(Workbench& workbench, const Paper& paper, const PressOptions& options) {
+    Press press(workbench, options);
+    PaperResult result{.paper = paper, .figures = {}, .tables = {}};
+    const double parts = double(paper.figures.size() + paper.tables.size());
+    double done = 0;
+    for (const Figure& figure : paper.figures) {
+        options.progress(done++ / parts, figure.id);
+        result.figures.push_back(press.print(figure));
+    }
+    for (const Table& table : paper.tables) {
+        options.progress(done++ / parts, table.id);
+        result.tables.push_back(press.print(table));
+    }
+    return result;
+}
+
+}  // namespace penumbra::studio
