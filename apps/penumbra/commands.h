@@ -12,5 +12,6 @@ void addCompare(CLI::App& app, const std::string& commandLine);
 void addBench(CLI::App& app);
 void addInfo(CLI::App& app);
 void addList(CLI::App& app);
+void addView(CLI::App& app);
 
 }  // namespace penumbra::studio

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lights as the user has them. Once anything is edited, they are the scene's no more but what their file
+// says: every edit goes through the text of a sidecar (docs/lights.md), so that what is shown is what would
+// be saved.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studio/scene/lights/sidecar.h"
+#include "studio/scene/scene.h"
+
+namespace penumbra::studio::viewer {
+
+/// A light of `shape` where it is seen to do something: over the middle of `bounds`.
+Light newLight(LightShape shape, const Bounds& bounds, const std::string& name);
+
+/// Another shape of the same brightness and about the same size at the same place. A texture stays with
+/// rects.
+void changeShape(Light& light, LightShape shape);
+
+/// Sets one of the light's sizes. Where it becomes or ceases to be zero the unit of emission changes with it,
+/// and the illuminance that the light gives from afar stays.
+void setSize(Light& light, float AreaLight::*size, float value);
+
+class LightBook {
+  public:
+    /// Puts the edited lights, if there are any, in place of the moment's own.
+    void apply(SceneMoment& moment) const;
+
+    bool edited() const { return edited_.has_value(); }
+    /// Since the last save.
+    bool unsaved() const { return unsaved_; }
+
+    /// Takes `lights` as they are wanted. Names are made unique. Textures are kept.
+    void edit(std::vector<Light> lights);
+    /// The scene's own lights again.
+    void revert();
+
+    /// Writes the lights of `moment` (edited or not) to a sidecar, textures as PNG files beside it; what
+    /// `file` says of nodes is kept. Throws OutputError.
+    void save(const Scene& scene, const SceneMoment& moment, const std::filesystem::path& file);
+    /// The same to a file of its own beneath `folder`, named by content, and returns its path.
+    std::filesystem::path snapshot(const Scene& scene, const SceneMoment& moment,
+                                   const std::filesystem::path& folder) const;
+
+  private:
+    std::optional<std::vector<Light>> edited_;
+    bool unsaved_ = false;
+};
+
+}  // namespace penumbra::studio::viewer
