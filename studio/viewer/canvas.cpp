@@ -43,7 +43,6 @@ void Canvas::resize(int width_px, int height_px) {
                             .format = GL_RGBA8,
                             .filter = GL_LINEAR,
                             .label = "viewer/canvas"});
-    glTextureParameteri(texture_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
 void Canvas::compose(const FrameRenderer& frame, const Side& a, const Side& b, const CanvasOptions& options) {
@@ -69,6 +68,10 @@ void Canvas::compose(const FrameRenderer& frame, const Side& a, const Side& b, c
     glBindTextureUnit(7, a.reach.name() != 0 ? a.reach.name() : nothing_.name());
     orderedMap_.bind(8);
     divergingMap_.bind(9);
+    // Between the pixels of a picture more is not known but looks better; between numbers it would be made
+    // up.
+    glTextureParameteri(texture_.name(), GL_TEXTURE_MAG_FILTER,
+                        options.shown == Shown::picture ? GL_LINEAR : GL_NEAREST);
     texture_.bindImage(0, GL_WRITE_ONLY);
     compose_.use();
     gl::dispatchPixels(view.width_px, view.height_px);
@@ -82,6 +85,7 @@ void Canvas::inspect(const InspectedTexture& texture, int layer, float black, fl
     const int width_px = parameter(texture.texture, GL_TEXTURE_WIDTH);
     const int height_px = parameter(texture.texture, GL_TEXTURE_HEIGHT);
     resize(width_px, height_px);
+    glTextureParameteri(texture_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     (target == GL_TEXTURE_2D_ARRAY ? inspectLayer_ : inspect_).use();
     glBindTextureUnit(0, texture.texture);
     glUniform2i(0, width_px, height_px);

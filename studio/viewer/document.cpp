@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/viewer/document.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "studio/errors.h"
 #include "studio/scene/builtin/builtin.h"
 
 namespace penumbra::studio::viewer {
@@ -54,18 +51,21 @@ void Document::revertLights() {
     setTime(time_s());
 }
 
+bool Document::isBuiltin() const {
+    return std::ranges::find(builtinScenes(), nameOrPath_, &BuiltinInfo::name) != builtinScenes().end();
+}
+
+std::filesystem::path Document::sidecar() const {
+    if (options_.lightsFile) return *options_.lightsFile;
+    if (isBuiltin()) return {};
+    return std::filesystem::path(nameOrPath_).replace_extension(".lights.json");
+}
+
 std::filesystem::path Document::saveLights() {
-    const bool builtin =
-        std::ranges::find(builtinScenes(), nameOrPath_, &BuiltinInfo::name) != builtinScenes().end();
-    if (builtin && !options_.lightsFile) {
-        throw OutputError(
-            fmt::format("'{0}' is a built-in scene: start with --lights {0}.lights.json to have "
-                        "a file to save its lights in",
-                        nameOrPath_));
-    }
-    const std::filesystem::path file =
-        options_.lightsFile.value_or(std::filesystem::path(nameOrPath_).replace_extension(".lights.json"));
-    lights_.save(*scene_, moment_, file);
+    std::filesystem::path file = sidecar();
+    if (file.empty()) file = nameOrPath_ + ".lights.json";
+    if (!lights_.edited()) editLights(moment_.lights);  // from now on they are the file's
+    lights_.save(*scene_, file);
     return file;
 }
 

@@ -33,8 +33,13 @@ class Document {
 
     void editLights(std::vector<Light> lights);
     void revertLights();
-    /// To where the scene's sidecar is, or will be found. A built-in scene has no such place: throws
-    /// OutputError.
+    bool isBuiltin() const;
+    /// The file that says something about the scene's lights, if it exists; empty for a built-in scene
+    /// without
+    /// --lights.
+    std::filesystem::path sidecar() const;
+    /// To the sidecar, or NAME.lights.json in the current folder for a built-in scene. Returns the file.
+    /// Throws OutputError.
     std::filesystem::path saveLights();
     LightBook& lights() { return lights_; }
     const LightBook& lights() const { return lights_; }

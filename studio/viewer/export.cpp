@@ -104,10 +104,9 @@ std::string renderCommand(Session& session, const fs::path& folder) {
     std::string line = "penumbra render " + shellWord(scene);
     const OpenOptions& options = document.options();
     if (document.lights().edited()) {
-        line +=
-            " --lights " +
-            shellWord(
-                document.lights().snapshot(document.scene(), document.moment(), folder / "lights").string());
+        const fs::path lights =
+            document.lights().snapshot(document.scene(), folder / "lights", document.sidecar());
+        line += " --lights " + shellWord(lights.string());
     } else if (options.lightsFile) {
         line += " --lights " + shellWord(fs::absolute(*options.lightsFile, error).string());
     }

@@ -12,7 +12,7 @@
 namespace penumbra::studio::viewer {
 namespace {
 
-constexpr float armLength_px = 74;
+constexpr float armStart_px = 14, armLength_px = 74;
 constexpr float ringRadius_px = 58;
 constexpr float reach_px = 9;
 
@@ -178,8 +178,10 @@ std::vector<Gizmo::Handle> Gizmo::handles(const Light& light, Mode mode, const P
                 if (const auto pixel = projection.pixelOf(point)) handle.line_px.push_back(*pixel);
             }
         } else if (mode == Mode::move) {
+            // The middle is free for moving in the plane of the screen.
+            const auto from = projection.pixelOf(place + armStart_px * scale * metresPerPixel * direction);
             const auto tip = projection.pixelOf(place + armLength_px * scale * metresPerPixel * direction);
-            if (tip) handle.line_px = {*center, *tip};
+            if (from && tip) handle.line_px = {*from, *tip};
         } else if (axis == Axis::x || (axis == Axis::y && shape.shape == LightShape::rect)) {
             const auto end = projection.pixelOf(place + halfExtent(shape, axis, scene) * direction);
             // Beyond the edge, so that a light of size zero can be taken hold of as well.
@@ -199,8 +201,7 @@ std::optional<Gizmo::Axis> Gizmo::pick(const std::vector<Handle>& handles, const
     float nearest = reach_px * scale;
     for (const Handle& handle : handles) {
         for (std::size_t i = 1; i < handle.line_px.size(); ++i) {
-            float distance = distanceToSegment(cursor_px, handle.line_px[i - 1], handle.line_px[i]);
-            if (handle.axis == Axis::free) distance *= 0.6f;  // in the middle of all arrows
+            const float distance = distanceToSegment(cursor_px, handle.line_px[i - 1], handle.line_px[i]);
             if (distance >= nearest) continue;
             nearest = distance;
             found = handle.axis;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 namespace penumbra::studio::viewer {

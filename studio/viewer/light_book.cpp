@@ -58,20 +58,15 @@ void makeNamesUnique(std::vector<Light>& lights) {
     }
 }
 
-SidecarLight written(const Light& light) {
-    return {.light = light, .parentFromLight = std::bit_cast<glm::mat4>(light.shape.worldFromLight)};
-}
-
-/// What a file says of the lights, read back: the shown lights are never better than the saved ones.
-std::vector<Light> throughText(const std::vector<Light>& lights) {
-    Sidecar sidecar{.fileName = "edited lights", .lights = std::vector<SidecarLight>()};
-    for (const Light& light : lights) sidecar.lights->push_back(written(light));
+/// What a file of these lights says, read back.
+std::vector<Light> throughText(const std::vector<SidecarLight>& lights) {
+    const Sidecar sidecar{.fileName = "edited lights", .lights = lights};
     const Sidecar read = parseSidecar(formatSidecar(sidecar), sidecar.fileName);
     std::vector<Light> result;
     for (std::size_t i = 0; i < lights.size(); ++i) {
         Light light = read.lights->at(i).light;
         light.shape.worldFromLight = std::bit_cast<Mat4>(gltf::rigidPart(read.lights->at(i).parentFromLight));
-        light.texture = lights[i].texture;
+        light.texture = lights[i].light.texture;
         result.push_back(std::move(light));
     }
     return result;
@@ -82,23 +77,26 @@ struct LightFiles {
     std::vector<std::pair<std::string, Image>> pictures;  ///< by file name
 };
 
-LightFiles filesOf(const Scene& scene, const SceneMoment& moment, const std::string& stem,
+LightFiles filesOf(const Scene& scene, std::vector<SidecarLight> lights, const std::string& stem,
                    std::vector<SidecarNode> nodes) {
     LightFiles files;
-    Sidecar sidecar{.fileName = stem, .lights = std::vector<SidecarLight>(), .nodes = std::move(nodes)};
-    for (const Light& light : moment.lights) {
-        SidecarLight& entry = sidecar.lights->emplace_back(written(light));
-        if (light.texture < 0) continue;
-        const Picture& picture =
-            scene.pictures[std::size_t(scene.textures[std::size_t(light.texture)].picture)];
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const int texture = lights[i].light.texture;
+        if (texture < 0) continue;
+        const Picture& picture = scene.pictures[std::size_t(scene.textures[std::size_t(texture)].picture)];
         Image image(picture.width_px, picture.height_px, 4);
         std::ranges::transform(picture.rgba, image.values.begin(),
                                [](std::uint8_t value) { return float(value) / 255.0f; });
-        entry.textureFile = fmt::format("{}.light{}.png", stem, sidecar.lights->size());
-        files.pictures.emplace_back(entry.textureFile, std::move(image));
+        lights[i].textureFile = fmt::format("{}.light{}.png", stem, i + 1);
+        files.pictures.emplace_back(lights[i].textureFile, std::move(image));
     }
-    files.text = formatSidecar(sidecar);
+    files.text = formatSidecar({.fileName = stem, .lights = std::move(lights), .nodes = std::move(nodes)});
     return files;
+}
+
+std::vector<SidecarNode> nodesOf(const fs::path& sidecar) {
+    std::error_code error;
+    return fs::exists(sidecar, error) ? readSidecar(sidecar).nodes : std::vector<SidecarNode>();
 }
 
 void write(const LightFiles& files, const fs::path& file) {
@@ -154,34 +152,36 @@ void LightBook::apply(SceneMoment& moment) const {
 
 void LightBook::edit(std::vector<Light> lights) {
     makeNamesUnique(lights);
-    edited_ = throughText(lights);
+    written_.clear();
+    for (const Light& light : lights) {
+        written_.push_back(
+            {.light = light, .parentFromLight = std::bit_cast<glm::mat4>(light.shape.worldFromLight)});
+    }
+    edited_ = throughText(written_);
     unsaved_ = true;
 }
 
 void LightBook::revert() {
+    written_.clear();
     edited_.reset();
     unsaved_ = false;
 }
 
-void LightBook::save(const Scene& scene, const SceneMoment& moment, const fs::path& file) {
-    std::vector<SidecarNode> nodes;
-    std::error_code error;
-    if (fs::exists(file, error)) nodes = readSidecar(file).nodes;
-    write(filesOf(scene, moment, file.stem().stem().string(), std::move(nodes)), file);
+void LightBook::save(const Scene& scene, const fs::path& file) {
+    write(filesOf(scene, written_, file.stem().stem().string(), nodesOf(file)), file);
     unsaved_ = false;
 }
 
-fs::path LightBook::snapshot(const Scene& scene, const SceneMoment& moment, const fs::path& folder) const {
+fs::path LightBook::snapshot(const Scene& scene, const fs::path& folder, const fs::path& sidecar) const {
     std::error_code error;
     fs::create_directories(folder, error);
-    LightFiles files = filesOf(scene, moment, "lights", {});
+    const std::vector<SidecarNode> nodes = nodesOf(sidecar);
+    LightFiles files = filesOf(scene, written_, "lights", nodes);
     ContentHasher hasher;
     hasher.addArray(files.text);
-    for (const auto& [name, picture] : files.pictures) {
-        hasher.addArray(picture.values);
-    }
+    for (const auto& [name, picture] : files.pictures) hasher.addArray(picture.values);
     const std::string stem = hasher.hash().hex();
-    files = filesOf(scene, moment, stem, {});
+    files = filesOf(scene, written_, stem, nodes);
     const fs::path file = folder / (stem + ".lights.json");
     if (!fs::exists(file, error)) write(files, file);
     return file;

@@ -39,15 +39,19 @@ class LightBook {
     /// The scene's own lights again.
     void revert();
 
-    /// Writes the lights of `moment` (edited or not) to a sidecar, textures as PNG files beside it; what
-    /// `file` says of nodes is kept. Throws OutputError.
-    void save(const Scene& scene, const SceneMoment& moment, const std::filesystem::path& file);
-    /// The same to a file of its own beneath `folder`, named by content, and returns its path.
-    std::filesystem::path snapshot(const Scene& scene, const SceneMoment& moment,
-                                   const std::filesystem::path& folder) const;
+    /// Writes the edited lights to a sidecar, textures as PNG files beside it; what `file` says of nodes is
+    /// kept. Whoever reads it gets the lights that are shown, bit for bit. Throws OutputError.
+    void save(const Scene& scene, const std::filesystem::path& file);
+    /// The same to a file of its own beneath `folder`, named by content, and returns its path; about nodes it
+    /// says what `sidecar` says.
+    std::filesystem::path snapshot(const Scene& scene, const std::filesystem::path& folder,
+                                   const std::filesystem::path& sidecar) const;
 
   private:
-    std::optional<std::vector<Light>> edited_;
+    /// As they were given to be written. Their rotations, turned into quaternions once more, would differ in
+    /// the last bit, so that saving must begin from the same numbers as showing did.
+    std::vector<SidecarLight> written_;
+    std::optional<std::vector<Light>> edited_;  ///< what reading the file gives
     bool unsaved_ = false;
 };
 

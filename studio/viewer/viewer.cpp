@@ -11,7 +11,6 @@
 
 #include "studio/errors.h"
 
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 namespace penumbra::studio::viewer {
@@ -207,7 +206,12 @@ void Viewer::carryOut(const Requests& requests) {
     if (requests.resetCamera) session_.useSceneCamera(0);
     if (requests.reloadShaders) session_.reloadShaders();
     if (requests.saveLights) {
-        attempt([&] { say("lights saved to " + session_.document().saveLights().string()); });
+        attempt([&] {
+            const std::string file = session_.document().saveLights().string();
+            const bool found = !session_.document().sidecar().empty();
+            say(fmt::format("lights saved to {}{}", file,
+                            found ? "" : "; --lights " + file + " shows them again"));
+        });
     }
     if (requests.copyCommand) {
         attempt([&] {

@@ -6,7 +6,6 @@
 
 #include "studio/viewer/viewer.h"
 
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 namespace penumbra::studio::viewer {

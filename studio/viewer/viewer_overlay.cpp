@@ -9,7 +9,6 @@
 #include "studio/viewer/false_color.h"
 #include "studio/viewer/viewer.h"
 
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 namespace penumbra::studio::viewer {

@@ -8,13 +8,12 @@
 #include <utility>
 
 // Before anything that includes OpenGL's own header.
-#include "src/gl/gl.h"
-#include "src/gl/raster_state.h"
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include "src/gl/gl.h"
+#include "src/gl/raster_state.h"
 
 #include "studio/context/headless_context.h"
 #include "studio/viewer/theme.h"
@@ -77,8 +76,8 @@ Window::Window(const WindowOptions& options) : library_(std::make_unique<Library
     ImGui::GetIO().IniFilename = nullptr;  // panels have their places; there is nothing to keep
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
     ImGui_ImplOpenGL3_Init("#version 450");
-    applyTheme(contentScale());
     measure();
+    applyTheme(contentScale());
 }
 
 Window::~Window() {

@@ -58,8 +58,8 @@ std::string ViewerTest::writeScene(const std::string& name) const {
 
 void ViewerTest::start(const std::string& scene, const std::string& technique) {
     saveSettings({.width = 900,
-                  .height = 600,
-                  .resolutionScale = 0.5f,
+                  .height = 1160,
+                  .resolutionScale = 0.25f,
                   .referenceRuns = false,
                   .technique = technique},
                  at("viewer.json"));

@@ -21,7 +21,8 @@ class ViewerTest : public ::testing::Test {
     void SetUp() override;
     void TearDown() override;
 
-    /// A window of 900x600 with `technique` at half resolution, the truth switched off.
+    /// A window so high that the panel shows all its widgets, `technique` at a quarter of the resolution, the
+    /// truth switched off.
     void start(const std::string& scene, const std::string& technique = "hard");
     Viewer& viewer() { return *viewer_; }
     Session& session() { return viewer_->session(); }

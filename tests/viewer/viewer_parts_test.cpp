@@ -98,11 +98,12 @@ TEST(CameraControl, FramesEverything) {
     }
 }
 
+float linear(float v) {
+    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
+}
+
 /// CIE lightness of an sRGB-encoded colour.
 float lightnessOf(const std::array<float, 3>& color) {
-    const auto linear = [](float v) {
-        return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-    };
     const float y = 0.2126f * linear(color[0]) + 0.7152f * linear(color[1]) + 0.0722f * linear(color[2]);
     return y > 0.008856f ? 116 * std::cbrt(y) - 16 : 903.3f * y;
 }
@@ -117,8 +118,8 @@ TEST(FalseColor, LightnessRisesEvenly) {
 TEST(FalseColor, HasNoJumpsAndClampsWhatIsOutside) {
     for (int i = 1; i < 256; ++i) {
         const auto a = orderedColor(float(i - 1) / 255), b = orderedColor(float(i) / 255);
-        // Twice the mean step of a map that runs through all of a channel.
-        for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 0.03f) << i;
+        // In linear light: four times the mean step of a channel that runs from none to all.
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(linear(a[c]), linear(b[c]), 0.016f) << i;
     }
     EXPECT_EQ(orderedColor(-1), orderedColor(0));
     EXPECT_EQ(orderedColor(7), orderedColor(1));
@@ -171,7 +172,8 @@ TEST(Gizmo, MovesAlongAnArrow) {
 
     Gizmo gizmo;
     gizmo.begin(set.light, Gizmo::Mode::move, Gizmo::Axis::x, {550, 500});
-    expectNear(translationOf(gizmo.drag({650, 530}, set.projection, set.scene, false)), {1, 2, 0}, 1e-3f);
+    // Seen from the side the nearest place of the arrow to the cursor's ray is not quite the one below it.
+    expectNear(translationOf(gizmo.drag({650, 530}, set.projection, set.scene, false)), {1, 2, 0}, 1e-2f);
     expectNear(translationOf(gizmo.drag({657, 530}, set.projection, set.scene, true)), {1.1f, 2, 0}, 1e-3f);
     gizmo.begin(set.light, Gizmo::Mode::move, Gizmo::Axis::free, {500, 500});
     expectNear(translationOf(gizmo.drag({600, 400}, set.projection, set.scene, false)), {1, 3, 0}, 1e-3f);
@@ -252,7 +254,7 @@ TEST(LightBook, ShowsWhatItSaves) {
     book.apply(moment);
     EXPECT_EQ(moment.lights.back().name, lights[0].name + " 2");
     EXPECT_TRUE(book.unsaved());
-    book.save(scene, moment, folder / "scene.lights.json");
+    book.save(scene, folder / "scene.lights.json");
     EXPECT_FALSE(book.unsaved());
 
     Scene again = makeBuiltin("many-lights");
@@ -281,7 +283,7 @@ TEST(LightBook, KeepsWhatTheFileSaysOfNodesAndWritesTextures) {
     LightBook book;
     book.edit(moment.lights);
     book.apply(moment);
-    book.save(scene, moment, folder / "a.lights.json");
+    book.save(scene, folder / "a.lights.json");
     const Sidecar sidecar = readSidecar(folder / "a.lights.json");
     ASSERT_EQ(sidecar.nodes.size(), 1u);
     EXPECT_EQ(sidecar.nodes[0].casts, false);

@@ -343,8 +343,11 @@ TEST_F(ViewerTest, APickAsksEveryoneAndShowsTheLight) {
     EXPECT_NEAR(*pick->truth, *half, 0.03);
     ASSERT_EQ(pick->answers.size(), techniqueCatalog().size());
     for (const Pick::Answer& answer : pick->answers) {
-        if (answer.technique == "exact") EXPECT_EQ(answer.visibility, *half);
-        if (answer.technique == "hard") EXPECT_TRUE(answer.visibility == 0 || answer.visibility == 1);
+        if (answer.technique == "exact") {
+            EXPECT_EQ(answer.visibility, *half);
+        } else if (answer.technique == "hard") {
+            EXPECT_TRUE(answer.visibility == 0 || answer.visibility == 1);
+        }
     }
     EXPECT_GT(pick->illuminance_lux, 0);
     // The light, half of it behind something: bright and red pixels, about as many.
@@ -429,13 +432,13 @@ TEST_F(ViewerTest, SettingsSurviveARestart) {
     start("two-boxes");
     key("2");
     setParameter(session().techniques().get("pcf"), "radius", "3.5");
-    session().choices().resolutionScale = 0.25f;
+    session().choices().resolutionScale = 0.5f;
     viewer_.reset();
     viewer_ = std::make_unique<Viewer>(options("two-boxes"));
     frames();
     EXPECT_EQ(session().choices().technique, "pcf");
     EXPECT_EQ(session().techniques().changes("pcf"), (ParameterValues{{"radius", "3.5"}}));
-    EXPECT_EQ(session().choices().resolutionScale, 0.25f);
+    EXPECT_EQ(session().choices().resolutionScale, 0.5f);
     EXPECT_EQ(viewer().window().width_px(), 900);
     EXPECT_EQ(viewer().settings().recentFiles.front(), "two-boxes");
 }
