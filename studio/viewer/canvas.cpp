@@ -2,6 +2,7 @@
 #include "studio/viewer/canvas.h"
 
 #include <algorithm>
+#include <array>
 #include <glm/gtc/type_ptr.hpp>
 
 namespace penumbra::studio::viewer {
@@ -30,8 +31,11 @@ Canvas::Canvas(gl::ShaderLibrary& shaders)
     : compose_(shaders, {"studio/viewer/compose.comp.glsl"}),
       inspect_(shaders, {"studio/viewer/inspect.comp.glsl"}),
       inspectLayer_(shaders, {"studio/viewer/inspect.comp.glsl"}, {"LAYERED"}),
+      inspectRange_(shaders, {"studio/viewer/inspect_range.comp.glsl"}),
+      inspectLayerRange_(shaders, {"studio/viewer/inspect_range.comp.glsl"}, {"LAYERED"}),
       lightView_(shaders, {"studio/viewer/light_view.comp.glsl"}),
       constants_("canvas"),
+      inspectedRange_(2 * sizeof(std::uint32_t), "viewer/inspected range"),
       orderedMap_(mapTexture(orderedColors(), "viewer/ordered colours")),
       divergingMap_(mapTexture(divergingColors(), "viewer/diverging colours")),
       nothing_({.format = GL_RGBA8, .label = "viewer/nothing"}) {}
@@ -78,20 +82,34 @@ void Canvas::compose(const FrameRenderer& frame, const Side& a, const Side& b, c
     finishWriting();
 }
 
-void Canvas::inspect(const InspectedTexture& texture, int layer, float black, float white) {
+void Canvas::inspect(const InspectedTexture& texture, int layer, bool stretched) {
     const gl::DebugGroup group("inspection");
     GLint target = 0;
     glGetTextureParameteriv(texture.texture, GL_TEXTURE_TARGET, &target);
+    const bool layered = target == GL_TEXTURE_2D_ARRAY;
     const int width_px = parameter(texture.texture, GL_TEXTURE_WIDTH);
     const int height_px = parameter(texture.texture, GL_TEXTURE_HEIGHT);
+    const bool grey = parameter(texture.texture, GL_TEXTURE_GREEN_SIZE) == 0;
     resize(width_px, height_px);
     glTextureParameteri(texture_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    (target == GL_TEXTURE_2D_ARRAY ? inspectLayer_ : inspect_).use();
+    const std::array<std::uint32_t, 2> nothingSeen = {0xffffffffu, 0};
+    inspectedRange_.write(std::as_bytes(std::span(nothingSeen)));
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, inspectedRange_.name());
     glBindTextureUnit(0, texture.texture);
+    if (stretched) {
+        (layered ? inspectLayerRange_ : inspectRange_).use();
+        glUniform2i(0, width_px, height_px);
+        glUniform1i(2, layer);
+        glUniform1i(3, grey);
+        gl::dispatchPixels(width_px, height_px);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    }
+    (layered ? inspectLayer_ : inspect_).use();
     glUniform2i(0, width_px, height_px);
-    glUniform2f(1, black, white == black ? black + 1 : white);
+    glUniform2f(1, texture.black, texture.white == texture.black ? texture.black + 1 : texture.white);
     glUniform1i(2, layer);
-    glUniform1i(3, parameter(texture.texture, GL_TEXTURE_GREEN_SIZE) == 0);
+    glUniform1i(3, grey);
+    glUniform1i(4, stretched);
     texture_.bindImage(0, GL_WRITE_ONLY);
     gl::dispatchPixels(width_px, height_px);
     finishWriting();

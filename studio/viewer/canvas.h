@@ -36,8 +36,9 @@ class Canvas {
 
     /// `b` may be the same as `a`.
     void compose(const FrameRenderer& frame, const Side& a, const Side& b, const CanvasOptions& options);
-    /// One layer of a texture from `black` to `white`. A texture larger than `limit_px` shows its corner.
-    void inspect(const InspectedTexture& texture, int layer, float black, float white);
+    /// One layer of a texture, from its `black` to its `white`, or stretched from the least to the largest
+    /// number in it: reversed depth without a far plane lies all near 0.
+    void inspect(const InspectedTexture& texture, int layer, bool stretched);
     /// What the surface point at `posWorld` sees of the light: `frame` was drawn from there.
     void lookAtLight(const FrameRenderer& frame, const AreaLight& light, const glm::dmat4& worldFromLight);
 
@@ -46,8 +47,9 @@ class Canvas {
   private:
     void resize(int width_px, int height_px);
 
-    gl::Program compose_, inspect_, inspectLayer_, lightView_;
+    gl::Program compose_, inspect_, inspectLayer_, inspectRange_, inspectLayerRange_, lightView_;
     gl::ConstantBuffer<ComposeConstants> constants_;
+    gl::Buffer inspectedRange_;
     gl::Texture orderedMap_, divergingMap_, nothing_;
     gl::Texture texture_;
 };

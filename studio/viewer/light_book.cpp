@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
 #include "studio/errors.h"
@@ -106,9 +107,14 @@ void write(const LightFiles& files, const fs::path& file) {
 
 }  // namespace
 
-Light newLight(LightShape shape, const Bounds& bounds, const std::string& name) {
-    Light light = keyLight(name, bounds);
-    changeShape(light, shape);
+Light newLight(const Bounds& bounds, std::size_t number) {
+    Light light = keyLight("new light", bounds);
+    // The golden angle: never where one was before.
+    const glm::mat4 turn = glm::translate(glm::mat4(1), bounds.center()) *
+                           glm::rotate(glm::mat4(1), 2.4f * float(number), glm::vec3(0, 1, 0)) *
+                           glm::translate(glm::mat4(1), -bounds.center());
+    light.shape.worldFromLight =
+        std::bit_cast<Mat4>(turn * std::bit_cast<glm::mat4>(light.shape.worldFromLight));
     return light;
 }
 

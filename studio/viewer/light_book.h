@@ -14,8 +14,8 @@
 
 namespace penumbra::studio::viewer {
 
-/// A light of `shape` where it is seen to do something: over the middle of `bounds`.
-Light newLight(LightShape shape, const Bounds& bounds, const std::string& name);
+/// A rectangle above `bounds` that lights their middle, from another side for each `number`.
+Light newLight(const Bounds& bounds, std::size_t number);
 
 /// Another shape of the same brightness and about the same size at the same place. A texture stays with
 /// rects.

@@ -285,7 +285,7 @@ std::vector<InspectedTexture> Session::inspected() {
     const GBuffer& gbuffer = frame_.gbuffer();
     collector.texture({.name = "normals", .texture = gbuffer.view().normalTexture, .black = -1});
     collector.texture({.name = "albedo", .texture = gbuffer.albedo().name()});
-    collector.texture({.name = "depth (reversed)", .texture = gbuffer.view().depthTexture, .white = 1e-3f});
+    collector.texture({.name = "depth (reversed)", .texture = gbuffer.view().depthTexture});
     if (choices_.light < a.statistics.size()) {
         const std::string& name = a.statistics[choices_.light].technique;
         if (name != referenceName) techniques_.get(name).inspect(collector);
@@ -293,8 +293,8 @@ std::vector<InspectedTexture> Session::inspected() {
     return collector.textures;
 }
 
-void Session::inspect(const InspectedTexture& texture, int layer) {
-    inspection_.inspect(texture, std::clamp(layer, 0, texture.layers - 1), texture.black, texture.white);
+void Session::inspect(const InspectedTexture& texture, int layer, bool stretched) {
+    inspection_.inspect(texture, std::clamp(layer, 0, texture.layers - 1), stretched);
 }
 
 void Session::reloadShaders() {

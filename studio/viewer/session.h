@@ -114,7 +114,7 @@ class Session {
     /// The buffers that the technique of the light in question left, and the frame's own.
     std::vector<InspectedTexture> inspected();
     /// Makes a picture of one of them, for inspection().
-    void inspect(const InspectedTexture& texture, int layer);
+    void inspect(const InspectedTexture& texture, int layer, bool stretched = true);
     const Canvas& inspection() const { return inspection_; }
 
   private:

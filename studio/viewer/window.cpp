@@ -62,10 +62,6 @@ Window::Window(const WindowOptions& options) : library_(std::make_unique<Library
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(options.vsync ? 1 : 0);
     glfwSetWindowUserPointer(window_, this);
-    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
-        if (action == GLFW_RELEASE) return;
-        static_cast<Window*>(glfwGetWindowUserPointer(window))->keys_.push_back({key, mods});
-    });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
         auto& dropped = static_cast<Window*>(glfwGetWindowUserPointer(window))->dropped_;
         dropped.insert(dropped.end(), paths, paths + count);
@@ -75,6 +71,9 @@ Window::Window(const WindowOptions& options) : library_(std::make_unique<Library
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // panels have their places; there is nothing to keep
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int mods) {
+        static_cast<Window*>(glfwGetWindowUserPointer(window))->onKey(key, scancode, action, mods);
+    });
     ImGui_ImplOpenGL3_Init("#version 450");
     measure();
     applyTheme(contentScale());
@@ -95,7 +94,20 @@ void Window::requestClose() {
     glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
 
+void Window::onKey(int key, int scancode, int action, int mods) {
+    if (action == GLFW_RELEASE) {
+        releases_.push_back({key, scancode, mods});
+        return;
+    }
+    keys_.push_back({key, mods});
+    ImGui_ImplGlfw_KeyCallback(window_, key, scancode, action, mods);
+}
+
 void Window::pollEvents(double longest_s) {
+    // A frame has begun since these keys went down, so that none of them is missed.
+    for (const auto& [key, scancode, mods] : std::exchange(releases_, {})) {
+        ImGui_ImplGlfw_KeyCallback(window_, key, scancode, GLFW_RELEASE, mods);
+    }
     if (longest_s > 0) {
         glfwWaitEventsTimeout(longest_s);
     } else {

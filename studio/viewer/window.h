@@ -72,11 +72,16 @@ class Window {
     class Library;
     void measure();
     void drawInterface();
+    void onKey(int key, int scancode, int action, int mods);
 
     std::unique_ptr<Library> library_;
     GLFWwindow* window_ = nullptr;
     int width_px_ = 0, height_px_ = 0;
     std::vector<KeyPress> keys_;
+    struct Release {
+        int key, scancode, mods;
+    };
+    std::vector<Release> releases_;  ///< that Dear ImGui is yet to hear of
     std::vector<std::filesystem::path> dropped_;
 };
 

@@ -18,8 +18,7 @@ Display::Display(int dpi, const std::string& size) {
     if (process_ == 0) {
         close(ends[0]);
         execlp("Xvfb", "Xvfb", "-displayfd", std::to_string(ends[1]).c_str(), "-screen", "0",
-               (size + "x24").c_str(), "-dpi", std::to_string(dpi).c_str(), "-nolisten", "tcp", "-ac",
-               static_cast<char*>(nullptr));
+               (size + "x24").c_str(), "-nolisten", "tcp", "-ac", "-noreset", static_cast<char*>(nullptr));
         _exit(127);
     }
     close(ends[1]);
@@ -28,6 +27,10 @@ Display::Display(int dpi, const std::string& size) {
     close(ends[0]);
     if (number.empty()) throw std::runtime_error("Xvfb does not start; is the package xvfb installed?");
     setenv("DISPLAY", (":" + number).c_str(), 1);
+    // Where desktops say how large things must be.
+    const std::string resource =
+        "xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi:\t" + std::to_string(dpi) + "\n'";
+    if (std::system(resource.c_str()) != 0) throw std::runtime_error("xprop failed");
 }
 
 Display::~Display() {

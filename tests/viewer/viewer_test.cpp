@@ -98,10 +98,10 @@ TEST_F(ViewerTest, KeysChooseTechniques) {
 TEST_F(ViewerTest, ParametersHaveWidgetsAndAWayBack) {
     start("two-boxes", "pcf");
     const Image before = picture();
-    clickWidget("radius (texels)##radius", 0.4);
+    clickWidget("map size (texels)##map_size", 0.2);
     ASSERT_EQ(session().techniques().changes("pcf").size(), 1u);
     EXPECT_GT(largestDifference(before, picture()), 0);
-    clickWidget("x##reset radius");
+    clickWidget("x##reset map_size");
     EXPECT_TRUE(session().techniques().changes("pcf").empty());
     EXPECT_EQ(largestDifference(before, picture()), 0);
 }
@@ -163,6 +163,8 @@ TEST_F(ViewerTest, LightsMoveTurnAndGrowByHand) {
         drag(at.x, at.y, at.x + 0.1 * along.x, at.y + 0.1 * along.y);
     };
     session().editLights({rectLight("key", 1, 0.5f, {0.4f, 1.6f, 0.5f}, {0, 0, 0}, 700)});
+    session().freeCamera().frame({{-2, -1, -2}, {2, 3, 2}}, 0.5f);
+    session().changedView();
     frames();
     const Image before = picture();
     const glm::vec3 from = placeOfLight(session());
@@ -315,6 +317,7 @@ TEST_F(ViewerTest, BuffersAreShown) {
 
 TEST_F(ViewerTest, EveryBufferOfEveryTechniqueIsShown) {
     start("two-boxes");
+    cheapen();
     for (const TechniqueInfo& info : techniqueCatalog()) {
         chooseTechnique(session(), std::string(info.name));
         frames(1);
@@ -326,6 +329,7 @@ TEST_F(ViewerTest, EveryBufferOfEveryTechniqueIsShown) {
 
 TEST_F(ViewerTest, APickAsksEveryoneAndShowsTheLight) {
     start("two-boxes");
+    cheapen();
     // A pixel in the penumbra, found by the exact technique.
     chooseTechnique(session(), "exact");
     frames();
@@ -373,7 +377,7 @@ TEST_F(ViewerTest, TheCopiedCommandMakesTheSamePixels) {
         const std::string line = viewer().window().clipboard();
         ASSERT_TRUE(line.starts_with("penumbra render ")) << line;
         ASSERT_EQ(run(line), 0) << what << ": " << line;
-        EXPECT_EQ(largestDifference(readPng(at("picture.png")).image, picture()), 0) << what << ": " << line;
+        EXPECT_TRUE(samePixels(readPng(at("picture.png")).image, picture())) << what << ": " << line;
     };
     expectSamePixels("as opened");
     drag(0.3, 0.6, 0.55, 0.5);
@@ -399,7 +403,7 @@ TEST_F(ViewerTest, TheCopiedCommandKnowsTimeTextureAndReference) {
         key("ctrl+c");
         const std::string line = viewer().window().clipboard();
         ASSERT_EQ(run(line), 0) << line;
-        EXPECT_EQ(largestDifference(readPng(at("picture.png")).image, picture()), 0) << line;
+        EXPECT_TRUE(samePixels(readPng(at("picture.png")).image, picture())) << line;
     };
     expectSamePixels();
     session().open("textured-window");
@@ -416,7 +420,7 @@ TEST_F(ViewerTest, PicturesCarryWhatMadeThem) {
     key("F2");
     ASSERT_TRUE(std::filesystem::exists(at("two-boxes.001.png"))) << viewer().desk().message;
     const PngPicture saved = readPng(at("two-boxes.001.png"));
-    EXPECT_EQ(largestDifference(saved.image, picture()), 0);
+    EXPECT_TRUE(samePixels(saved.image, picture()));
     EXPECT_TRUE(saved.metadata.at("penumbra:command").starts_with("penumbra render two-boxes"));
     const ExrPicture exr = readExr(at("two-boxes.001.exr"));
     EXPECT_EQ(exr.metadata.at("penumbra:command"), saved.metadata.at("penumbra:command"));
@@ -424,7 +428,7 @@ TEST_F(ViewerTest, PicturesCarryWhatMadeThem) {
     key("v");
     key("F3");
     const PngPicture shown = readPng(at("two-boxes.002.png"));
-    EXPECT_EQ(largestDifference(shown.image, canvas()), 0);
+    EXPECT_TRUE(samePixels(shown.image, canvas()));
     EXPECT_EQ(shown.metadata.at("penumbra:shown"), "visibility");
 }
 
@@ -502,7 +506,7 @@ TEST_F(ViewerTest, WrongFilesLeaveTheSceneStanding) {
 
 TEST_F(ViewerTest, MenusOpenScenes) {
     start("two-boxes");
-    click("mousemove 18 8");  // File
+    clickWidget("File");
     clickWidget("Built-in scenes");
     clickWidget("torus");
     EXPECT_EQ(session().document().nameOrPath(), "torus");
@@ -533,6 +537,7 @@ TEST_F(ViewerTest, ShadersAreReadAgainAndTheLastGoodOnesKept) {
     text << std::ifstream(shader).rdbuf();
     const std::string good = text.str();
 
+    driverMayComplain_ = true;
     std::ofstream(shader) << good << "\nthis is no GLSL\n";
     framesUntil([&] { return !session().shaderProblem().empty(); });
     EXPECT_NE(session().shaderProblem().find("tone_map.comp.glsl"), std::string::npos);
@@ -613,7 +618,8 @@ TEST(ViewerDisplay, ThingsAreLargerOnFineDisplays) {
 }
 
 TEST_F(ViewerTest, SmokeFramesRunFromTheCommandLine) {
-    EXPECT_EQ(run("penumbra view two-boxes --smoke-frames 12"), 0);
+    saveSettings({.width = 480, .height = 320, .resolutionScale = 0.25f}, at("config/penumbra/viewer.json"));
+    EXPECT_EQ(run("penumbra view two-boxes --smoke-frames 10"), 0);
     EXPECT_EQ(run("penumbra view no-such-scene --smoke-frames 1"), 3);
 }
 

@@ -56,7 +56,8 @@ void drawBuffers(Ui& ui, Session& session, Desk& desk) {
         desk.bufferLayer = 0;
     }
     if (desk.buffer >= buffers.size()) return;
-    session.inspect(buffers[desk.buffer], desk.bufferLayer);
+    ui.checkbox("stretch to what is in it", desk.bufferStretched);
+    session.inspect(buffers[desk.buffer], desk.bufferLayer, desk.bufferStretched);
     const gl::Texture& shown = session.inspection().texture();
     const float width = ImGui::GetContentRegionAvail().x;
     const float height = std::min(width * float(shown.height_px()) / float(shown.width_px()), 1.2f * width);

@@ -124,7 +124,7 @@ bool drawListButtons(Ui& ui, Session& session) {
     std::size_t& selected = session.choices().light;
     bool changed = false;
     if (ui.button("Add")) {
-        lights.push_back(newLight(LightShape::rect, session.document().bounds(), "new light"));
+        lights.push_back(newLight(session.document().bounds(), lights.size()));
         selected = lights.size() - 1;
         changed = true;
     }

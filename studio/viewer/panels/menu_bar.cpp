@@ -8,16 +8,16 @@ namespace penumbra::studio::viewer {
 namespace {
 
 void drawFileMenu(Ui& ui, Session& session, const Settings& settings, Desk& desk, Requests& requests) {
-    if (!ImGui::BeginMenu("File")) return;
+    if (!ui.beginMenu("File")) return;
     if (ui.menuItem("Open...", "Ctrl+O")) desk.asksForPath = true;
-    if (ImGui::BeginMenu("Built-in scenes")) {
+    if (ui.beginMenu("Built-in scenes")) {
         for (const BuiltinInfo& info : builtinScenes()) {
             if (ui.menuItem(std::string(info.name).c_str())) requests.open = std::string(info.name);
             ui.tip(info.summary);
         }
         ImGui::EndMenu();
     }
-    if (ImGui::BeginMenu("Recent", !settings.recentFiles.empty())) {
+    if (ui.beginMenu("Recent", !settings.recentFiles.empty())) {
         for (const std::string& file : settings.recentFiles) {
             if (ui.menuItem(file.c_str())) requests.open = file;
         }
@@ -36,7 +36,7 @@ void drawFileMenu(Ui& ui, Session& session, const Settings& settings, Desk& desk
 }
 
 void drawCameraMenu(Ui& ui, Session& session, Requests& requests) {
-    if (!ImGui::BeginMenu("Camera")) return;
+    if (!ui.beginMenu("Camera")) return;
     if (ui.menuItem("Frame all", "F")) requests.frameAll = true;
     if (ui.menuItem("Reset", "R")) requests.resetCamera = true;
     ImGui::Separator();
@@ -51,7 +51,7 @@ void drawCameraMenu(Ui& ui, Session& session, Requests& requests) {
 }
 
 void drawTechniqueMenu(Ui& ui, Session& session) {
-    if (!ImGui::BeginMenu("Technique")) return;
+    if (!ui.beginMenu("Technique")) return;
     const std::vector<std::string> names = techniqueChoices();
     for (std::size_t i = 0; i < names.size(); ++i) {
         const bool isReference = names[i] == referenceName;
@@ -64,7 +64,7 @@ void drawTechniqueMenu(Ui& ui, Session& session) {
 }
 
 void drawViewMenu(Ui& ui, Session& session, Desk& desk) {
-    if (!ImGui::BeginMenu("View")) return;
+    if (!ui.beginMenu("View")) return;
     Choices& choices = session.choices();
     if (ui.menuItem("Wipe between two", "C", choices.comparing)) {
         choices.comparing = !choices.comparing;
@@ -100,7 +100,7 @@ void drawMenuBar(Ui& ui, Session& session, const Settings& settings, Desk& desk,
     drawCameraMenu(ui, session, requests);
     drawTechniqueMenu(ui, session);
     drawViewMenu(ui, session, desk);
-    if (ImGui::BeginMenu("Help")) {
+    if (ui.beginMenu("Help")) {
         if (ui.menuItem("Keys and mouse", "H")) desk.showsHelp = true;
         ImGui::EndMenu();
     }

@@ -24,6 +24,7 @@ struct Desk {
     Recorder::Plan recording{"penumbra-frames", 0, 47, 24};
     std::size_t buffer = 0;  ///< of Session::inspected()
     int bufferLayer = 0;
+    bool bufferStretched = true;
     std::string presetName;
 };
 

@@ -27,6 +27,13 @@ bool Ui::radio(const char* label, bool chosen) {
     return placed(label, ImGui::RadioButton(label, chosen));
 }
 
+bool Ui::beginMenu(const char* label, bool enabled) {
+    // Once a menu is open, the last item is one of its own.
+    const ImVec2 at = ImGui::GetCursorScreenPos(), size = ImGui::CalcTextSize(label);
+    placed_.push_back({label, at, {at.x + size.x, at.y + size.y}});
+    return ImGui::BeginMenu(label, enabled);
+}
+
 bool Ui::menuItem(const char* label, const char* keys, bool chosen, bool enabled) {
     return placed(label, ImGui::MenuItem(label, keys, chosen, enabled));
 }

@@ -41,6 +41,8 @@ class Ui {
     bool button(const char* label);
     bool checkbox(const char* label, bool& value);
     bool radio(const char* label, bool chosen);
+    /// As ImGui::BeginMenu: where it returns true, ImGui::EndMenu() must follow.
+    bool beginMenu(const char* label, bool enabled = true);
     bool menuItem(const char* label, const char* keys = nullptr, bool chosen = false, bool enabled = true);
     /// The index chosen, where another one is.
     bool combo(const char* label, int& index, const std::vector<std::string>& names);
