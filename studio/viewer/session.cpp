@@ -46,7 +46,6 @@ void Session::open(const std::string& nameOrPath, const OpenOptions& options) {
     document_ = std::move(opened);
     casters_.reset();
     picker_.clear();
-    techniques_.forget();  // what they keep is of the scene before
     choices_.techniqueOfLight.clear();
     choices_.light = 0;
     fitIlluminance();

@@ -33,7 +33,7 @@ struct Choices {
     Shown shown = Shown::picture;
     float differenceRange = 0.2f;  ///< visibility at which the colours of errors end
     float largestLux = 0;          ///< end of the illuminance colours; 0: what the picture needed when fitted
-    bool logarithmic = true, isolines = true;
+    bool logarithmic = false, isolines = true;
     float resolutionScale = 1;
     int sceneCamera = 0;  ///< of the moment's; -1: the free one
 };

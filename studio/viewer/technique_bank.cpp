@@ -44,7 +44,21 @@ TechniqueBank::Entry& TechniqueBank::entry(std::string_view name) {
     if (found != entries_.end()) return found->second;
     Entry made{makeAnyTechnique(device_, name), {}};
     made.defaults = parameterValues(*made.technique);
+    if (const auto wanted = wanted_.find(name); wanted != wanted_.end()) {
+        apply(name, *made.technique, wanted->second);
+        wanted_.erase(wanted);
+    }
     return entries_.emplace(name, std::move(made)).first->second;
+}
+
+void TechniqueBank::apply(std::string_view name, Technique& technique, const ParameterValues& values) {
+    for (const auto& [key, value] : values) {
+        try {
+            setParameter(technique, key, value);
+        } catch (const Error& error) {
+            spdlog::warn("{}: {}", name, error.what());
+        }
+    }
 }
 
 Technique& TechniqueBank::get(std::string_view name) {
@@ -59,32 +73,24 @@ ParameterValues TechniqueBank::changes(std::string_view name) {
 }
 
 void TechniqueBank::set(std::string_view name, const ParameterValues& values) {
-    Entry& found = entry(name);
-    const auto apply = [&](const ParameterValues& chosen) {
-        for (const auto& [key, value] : chosen) {
-            try {
-                setParameter(*found.technique, key, value);
-            } catch (const Error& error) {
-                spdlog::warn("{}: {}", name, error.what());
-            }
-        }
-    };
-    apply(found.defaults);
-    apply(values);
+    const auto found = entries_.find(name);
+    if (found == entries_.end()) {
+        wanted_[std::string(name)] = values;
+        return;
+    }
+    apply(name, *found->second.technique, found->second.defaults);
+    apply(name, *found->second.technique, values);
 }
 
 std::map<std::string, ParameterValues> TechniqueBank::allChanges() {
-    std::map<std::string, ParameterValues> all;
+    std::map<std::string, ParameterValues> all(wanted_.begin(), wanted_.end());
     for (const auto& [name, entry] : entries_) all[name] = changes(name);
     return all;
 }
 
 void TechniqueBank::forget() {
-    const std::map<std::string, ParameterValues> kept = allChanges();
+    for (auto& [name, values] : allChanges()) wanted_[name] = values;
     entries_.clear();
-    for (const auto& [name, values] : kept) {
-        if (!values.empty()) set(name, values);
-    }
 }
 
 }  // namespace penumbra::studio::viewer

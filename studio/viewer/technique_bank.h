@@ -30,9 +30,10 @@ class TechniqueBank {
     /// What differs from the defaults: "KEY=VALUE" of the command's --set.
     ParameterValues changes(std::string_view name);
     /// Back to the defaults, then `values`; those that the technique does not know or allow are left out.
+    /// Does not make a technique that nobody has asked for yet.
     void set(std::string_view name, const ParameterValues& values);
 
-    /// Changes of all techniques that were made so far, by technique; empty where all is default.
+    /// Changes of all techniques that were made or set so far, by technique; empty where all is default.
     std::map<std::string, ParameterValues> allChanges();
 
     /// Throws all techniques away, keeping their parameters: what they held is made anew.
@@ -44,9 +45,11 @@ class TechniqueBank {
         ParameterValues defaults;
     };
     Entry& entry(std::string_view name);
+    static void apply(std::string_view name, Technique& technique, const ParameterValues& values);
 
     Device& device_;
     std::map<std::string, Entry, std::less<>> entries_;
+    std::map<std::string, ParameterValues, std::less<>> wanted_;  ///< of techniques that are not made yet
 };
 
 }  // namespace penumbra::studio::viewer

@@ -95,14 +95,11 @@ void Viewer::attempt(const Action& action) {
 }
 
 bool Viewer::frame(bool wait) {
-    const bool active = hand_.busy() || desk_.playing || recorder_.active();
-    window_.pollEvents(!wait || active ? 0 : session_.busy() ? 0.02 : 0.2);
+    // While only rays are traced, frames shall not take the processors away from them.
+    const bool active = hand_.busy() || desk_.playing || recorder_.active() || session_.picker().busy();
+    window_.pollEvents(!wait || active ? 0 : session_.busy() ? 0.1 : 0.25);
     if (window_.closeRequested()) return false;
     if (window_.width_px() == 0 || window_.height_px() == 0) return true;  // minimised
-
-    const double now_s = glfwGetTime();
-    frameTimes_ms_.push_back(float(1e3 * (now_s - std::exchange(lastFrame_s_, now_s))));
-    if (frameTimes_ms_.size() > frameHistory) frameTimes_ms_.erase(frameTimes_ms_.begin());
 
     takeFiles();
     window_.beginFrame();
@@ -252,6 +249,10 @@ void Viewer::updatePicture() {
     const bool drawn =
         session_.update(int(std::lround(place_.size.x * scale)), int(std::lround(place_.size.y * scale)));
     constexpr double late_ms = 120, smallest = 0.3;
+    if (drawn) {
+        frameTimes_ms_.push_back(float(session_.milliseconds()));
+        if (frameTimes_ms_.size() > frameHistory) frameTimes_ms_.erase(frameTimes_ms_.begin());
+    }
     if (moving && drawn && before == slowDown_ && session_.milliseconds() > late_ms && slowDown_ > smallest) {
         slowDown_ *= 0.7f;
     }

@@ -80,8 +80,8 @@ class Viewer {
     ShaderWatch shaderWatch_;
     Requests keyRequests_;
     CanvasPlace place_;
-    std::vector<float> frameTimes_ms_;
-    double lastFrame_s_ = 0, playedAt_s_ = 0, movedAt_s_ = -1;
+    std::vector<float> frameTimes_ms_;  ///< of frames that had something to draw
+    double playedAt_s_ = 0, movedAt_s_ = -1;
     float slowDown_ = 1;  ///< of the resolution while hands move and frames are late
 };
 

@@ -41,14 +41,16 @@ float placeOf(float value, const CanvasOptions& options) {
     return options.logarithmic ? std::log(value / min) / std::log(max / min) : (value - min) / (max - min);
 }
 
-std::string titleOf(const CanvasOptions& options, const std::string& light) {
-    switch (options.shown) {
+/// What the colours mean; a difference is `left` minus `right`.
+std::string titleOf(Shown shown, const std::string& light, const std::string& left,
+                    const std::string& right) {
+    switch (shown) {
         case Shown::picture:
             break;
         case Shown::difference:
-            return fmt::format("visibility of '{}', left minus right side of the comparison", light);
+            return fmt::format("visibility of '{}', {} minus {}", light, left, right);
         case Shown::error:
-            return fmt::format("visibility of '{}', how far the two differ", light);
+            return fmt::format("visibility of '{}', how far {} and {} differ", light, left, right);
         case Shown::visibility:
             return fmt::format("visibility of '{}'", light);
         case Shown::illuminance:
@@ -91,6 +93,14 @@ void Viewer::drawOverlay() {
             boxed(list, {max.x - margin, min.y + margin}, named(1, choices.other), scale, 1);
     }
     drawLegend();
+    if (const auto& pick = session_.picker().result(); pick && pick->hasSurface) {
+        std::string text = fmt::format("{:.4g} lux", pick->illuminance_lux);
+        if (pick->truth) text += fmt::format("\nvisibility {:.3f}", *pick->truth);
+        boxed(list,
+              {min.x + (float(pick->x) + 0.5f) / float(session_.width_px()) * place_.size.x + 12 * scale,
+               min.y + (float(pick->y) + 0.5f) / float(session_.height_px()) * place_.size.y - 10 * scale},
+              text, scale);
+    }
 
     float y = max.y - margin - line;
     const auto write = [&](const std::string& text, ImU32 background) {
@@ -137,7 +147,7 @@ void Viewer::drawLegend() {
     float freeFrom = -1e9f;
     for (const float mark : marksOf(scaleOf)) {
         const float x = at.x + width * placeOf(mark, scaleOf);
-        const std::string text = fmt::format("{:.3g}", mark);
+        const std::string text = fmt::format("{:g}", mark);
         const float half = 0.5f * ImGui::CalcTextSize(text.c_str()).x;
         list.AddLine({x, at.y + height}, {x, at.y + height + 3 * scale}, white);
         if (x - half < freeFrom) continue;
@@ -145,8 +155,10 @@ void Viewer::drawLegend() {
         freeFrom = x + half + 4 * scale;
     }
     const std::vector<Light>& lights = session_.document().moment().lights;
-    const std::string light = options.light < lights.size() ? lights[options.light].name : "";
-    const std::string title = titleOf(options, light);
+    const bool known = options.light < lights.size();
+    const std::string title =
+        titleOf(options.shown, known ? lights[options.light].name : "",
+                known ? session_.techniqueOf(lights[options.light]) : "", session_.choices().other);
     list.AddText({place_.min.x + 0.5f * (place_.size.x - ImGui::CalcTextSize(title.c_str()).x),
                   place_.min.y + 9 * scale},
                  white, title.c_str());

@@ -13,7 +13,7 @@ void drawTimes(Ui& ui, const Session& session, const std::vector<float>& frameTi
     const std::string overlay =
         fmt::format("median {:.1f}  p95 {:.1f}  p99 {:.1f} ms", times.p50, times.p95, times.p99);
     ImGui::PlotLines("##frame times", frameTimes_ms.data(), int(frameTimes_ms.size()), 0, overlay.c_str(), 0,
-                     std::max(1.2f * times.p99, 1.0f), {-1, 56 * ui.scale()});
+                     std::max(1.2f * times.p99, 1.0f), {ImGui::GetContentRegionAvail().x, 56 * ui.scale()});
     ui.note(fmt::format("{}x{} in {:.1f} ms on {}", session.width_px(), session.height_px(),
                         session.milliseconds(), session.device().renderer()));
 }
