@@ -17,7 +17,8 @@ struct ViewArguments {
 void view(const ViewArguments& arguments) {
     viewer::Viewer window({.scene = arguments.scene.scene,
                            .open = arguments.scene.openOptions(),
-                           .shaderSourceDirectory = arguments.shaders});
+                           .shaderSourceDirectory = arguments.shaders,
+                           .keepsSettings = arguments.smokeFrames == 0});
     if (arguments.smokeFrames > 0) return viewer::runSmoke(window, arguments.smokeFrames);
     while (window.frame()) {
     }

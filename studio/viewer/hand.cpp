@@ -68,7 +68,7 @@ void Hand::update(const CanvasPlace& place, const Window& window, Session& sessi
     const int button = holds_ == Holds::pan   ? ImGuiMouseButton_Middle
                        : holds_ == Holds::fly ? ImGuiMouseButton_Right
                                               : ImGuiMouseButton_Left;
-    if (!ImGui::IsMouseDown(button)) release(place, session);
+    if (!ImGui::IsMouseDown(button)) release(place, session, scale);
 }
 
 void Hand::press(const CanvasPlace& place, Session& session, const Desk& desk, float scale) {
@@ -130,14 +130,14 @@ void Hand::drag(const CanvasPlace& place, Session& session, bool snap) {
     }
 }
 
-void Hand::release(const CanvasPlace& place, Session& session) {
+void Hand::release(const CanvasPlace& place, Session& session, float scale) {
     const bool clicked = travelled_ < clickReach;
     const Holds held = holds_;
     holds_ = Holds::nothing;
     gizmo_.end();
     if (held != Holds::orbit || !clicked) return;
     const glm::vec2 cursor = toCanvas(place, last_);
-    if (const auto light = lightAt(session, projectionOf(session, place), cursor, 1)) {
+    if (const auto light = lightAt(session, projectionOf(session, place), cursor, scale)) {
         session.choices().light = *light;
         session.changedLighting();
         return;

@@ -33,7 +33,7 @@ class Hand {
     enum class Holds { nothing, orbit, pan, fly, gizmo, wipe };
     void press(const CanvasPlace& place, Session& session, const Desk& desk, float scale);
     void drag(const CanvasPlace& place, Session& session, bool snap);
-    void release(const CanvasPlace& place, Session& session);
+    void release(const CanvasPlace& place, Session& session, float scale);
     void fly(const Window& window, Session& session);
     glm::vec2 toCanvas(const CanvasPlace& place, const ImVec2& p) const {
         return {p.x - place.min.x, p.y - place.min.y};

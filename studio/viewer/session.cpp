@@ -112,8 +112,8 @@ void Session::changedLighting() {
 }
 
 bool Session::wantsTruth() const {
-    return choices_.referenceRuns || choices_.technique == referenceName ||
-           (showsOther() && choices_.other == referenceName) || picker_.result().has_value();
+    return choices_.referenceRuns || showsTruth(0) || (showsOther() && showsTruth(1)) ||
+           picker_.result().has_value();
 }
 
 bool Session::showsOther() const {
@@ -210,16 +210,23 @@ void Session::startReference() {
     reference_.start(std::move(request));
 }
 
+bool Session::showsTruth(std::size_t side) const {
+    const std::vector<LightStatistics>& lights = sides_.side(side).statistics;
+    return std::ranges::count(lights, referenceName, &LightStatistics::technique) != 0;
+}
+
+bool Session::complete() const {
+    const bool needsTruth = showsTruth(0) || (showsOther() && showsTruth(1));
+    return !canvasStale_ && (!needsTruth || (truth_ && truth_->samples == choices_.referenceSamples));
+}
+
 void Session::takeTruth() {
     auto best = reference_.best();
     if (best == truth_ || !best) return;
     truth_ = std::move(best);
-    const auto shows = [](const std::vector<LightStatistics>& lights) {
-        return std::ranges::count(lights, referenceName, &LightStatistics::technique) != 0;
-    };
-    for (std::size_t i = 0; i < 2; ++i) {
-        if (!shows(sides_.side(i).statistics)) continue;
-        sideStale_[i] = true;
+    for (std::size_t side = 0; side < 2; ++side) {
+        if (!showsTruth(side)) continue;
+        sideStale_[side] = true;
         canvasStale_ = true;
     }
     judge();

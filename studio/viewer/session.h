@@ -91,7 +91,10 @@ class Session {
     /// Something is still to come without the user's doing: more rays, more picks.
     bool busy() const;
 
-    /// Technique of light i on side A.
+    /// What is shown is what was asked for: where that is the truth, all of its rays are traced.
+    bool complete() const;
+
+    /// Technique of a light on side A.
     std::string techniqueOf(const Light& light) const;
     /// Errors of a side against the truth so far; nothing without one, or for the truth itself.
     const std::optional<VisibilityMetrics>& metrics(std::size_t side) const { return metrics_[side]; }
@@ -121,6 +124,7 @@ class Session {
     using Clock = std::chrono::steady_clock;
     bool wantsTruth() const;
     bool showsOther() const;
+    bool showsTruth(std::size_t side) const;
     void render(int width_px, int height_px);
     void lightSides();
     void startReference();

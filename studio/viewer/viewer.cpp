@@ -60,6 +60,10 @@ Viewer::Viewer(ViewerOptions options)
 }
 
 Viewer::~Viewer() {
+    if (options_.keepsSettings) keepSettings();
+}
+
+void Viewer::keepSettings() {
     const Choices& choices = session_.choices();
     settings_.technique = choices.technique;
     settings_.other = choices.other;
@@ -139,7 +143,12 @@ void Viewer::takeFiles() {
 void Viewer::advanceTime() {
     const double now_s = glfwGetTime();
     const double elapsed_s = now_s - std::exchange(playedAt_s_, now_s);
-    if (recorder_.active()) return session_.setTime(recorder_.time_s());
+    if (!recorder_.active()) recordedTime_s_.reset();
+    if (recorder_.active()) {
+        if (recordedTime_s_ != recorder_.time_s()) session_.setTime(recorder_.time_s());
+        recordedTime_s_ = recorder_.time_s();
+        return;
+    }
     const double duration_s = session_.document().duration_s();
     if (!desk_.playing || duration_s <= 0) return;
     session_.setTime(std::fmod(session_.document().time_s() + std::min(elapsed_s, 0.25), duration_s));
@@ -259,7 +268,7 @@ void Viewer::updatePicture() {
 }
 
 void Viewer::record() {
-    if (!recorder_.active()) return;
+    if (!recorder_.active() || !session_.complete()) return;
     attempt([&] {
         recorder_.write(session_, renderCommand(session_, options_.data));
         if (!recorder_.active()) say("recorded to " + recorder_.plan().folder.string());

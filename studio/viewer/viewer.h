@@ -18,6 +18,7 @@ struct ViewerOptions {
     OpenOptions open;
     std::filesystem::path shaderSourceDirectory;  ///< read shaders from this tree, and again when they change
     std::filesystem::path settings = settingsFile();
+    bool keepsSettings = true;  ///< writes them when it ends
     std::filesystem::path data = dataFolder();
     std::filesystem::path pictures = std::filesystem::current_path();  ///< where pictures are saved
 };
@@ -26,7 +27,6 @@ class Viewer {
   public:
     /// Throws NoOpenGLError without a display or OpenGL 4.5, InputError for a scene that cannot be opened.
     explicit Viewer(ViewerOptions options);
-    /// Keeps the settings.
     ~Viewer();
     Viewer(const Viewer&) = delete;
     Viewer& operator=(const Viewer&) = delete;
@@ -63,6 +63,7 @@ class Viewer {
     void drawOverlay();
     void drawLegend();
     void record();
+    void keepSettings();
     void say(const std::string& message, bool isError = false);
     /// Runs what may fail for reasons of the user's; the window says why.
     template <typename Action>
@@ -77,6 +78,7 @@ class Viewer {
     Desk desk_;
     Hand hand_;
     Recorder recorder_;
+    std::optional<double> recordedTime_s_;  ///< that is being shown for the recorder
     ShaderWatch shaderWatch_;
     Requests keyRequests_;
     CanvasPlace place_;
