@@ -44,6 +44,7 @@ void applyTheme(float scale) {
     ImVec4* colors = style.Colors;
     colors[ImGuiCol_WindowBg] = panel;
     colors[ImGuiCol_PopupBg] = {0.13f, 0.135f, 0.15f, 0.98f};
+    colors[ImGuiCol_TitleBgActive] = {0.085f, 0.09f, 0.1f, 1};
     colors[ImGuiCol_MenuBarBg] = {0.085f, 0.09f, 0.1f, 1};
     colors[ImGuiCol_FrameBg] = field;
     colors[ImGuiCol_FrameBgHovered] = {0.22f, 0.235f, 0.265f, 1};
