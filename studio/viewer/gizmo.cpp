@@ -189,7 +189,10 @@ std::vector<Gizmo::Handle> Gizmo::handles(const Light& light, Mode mode, const P
                 place + (halfExtent(shape, axis, scene) + 26 * scale * metresPerPixel) * direction);
             if (end && further) handle.line_px = {*end, *further};
         }
-        if (handle.line_px.size() > 1) made.push_back(std::move(handle));
+        // What points at the eye cannot be pulled, and would lie over what can.
+        const bool endOn = mode != Mode::turn && handle.line_px.size() == 2 &&
+                           glm::distance(handle.line_px[0], handle.line_px[1]) < reach_px * scale;
+        if (handle.line_px.size() > 1 && !endOn) made.push_back(std::move(handle));
     }
     if (mode == Mode::move) made.push_back({Axis::free, {*center, *center}});
     return made;
