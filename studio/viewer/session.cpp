@@ -122,7 +122,7 @@ bool Session::showsOther() const {
 }
 
 bool Session::busy() const {
-    return referenceStale_ || picker_.busy() || reference_.status().working;
+    return (referenceStale_ && wantsTruth()) || picker_.busy() || reference_.status().working;
 }
 
 std::string Session::techniqueOf(const Light& light) const {
