@@ -13,16 +13,20 @@ namespace {
 
 class Tour : public ViewerTest {
   protected:
+    static bool keeps() { return std::getenv("PENUMBRA_TOUR") != nullptr; }
+    /// What is kept shall look good; what is only checked shall be quick.
+    static float scaleOf(float kept) { return keeps() ? kept : 0.15f; }
+
     void begin(const std::string& scene, const std::string& technique, bool traces = false) {
         saveSettings({.width = 1200,
                       .height = 760,
-                      .resolutionScale = 0.5f,
+                      .resolutionScale = scaleOf(0.5f),
                       .referenceSamples = 64,
                       .referenceRuns = traces,
                       .technique = technique},
                      at("viewer.json"));
         viewer_ = std::make_unique<Viewer>(options(scene));
-        if (std::getenv("PENUMBRA_TOUR") == nullptr) cheapen();  // what is kept shows the defaults
+        if (!keeps()) cheapen();  // what is kept shows the defaults
         Display::input(to(0.97, 0.97));
         frames(3);
     }
@@ -42,13 +46,14 @@ class Tour : public ViewerTest {
         EXPECT_GT(std::ranges::max(window.values), 0.8f);
         EXPECT_GT(shareOfDifferent(window, Image(window.width_px, window.height_px, 3, window.values[0])),
                   0.3);
-        const char* const folder = std::getenv("PENUMBRA_TOUR");
-        if (folder != nullptr) writePng(std::filesystem::path(folder) / ("viewer-" + name + ".png"), window);
+        if (keeps())
+            writePng(std::filesystem::path(std::getenv("PENUMBRA_TOUR")) / ("viewer-" + name + ".png"),
+                     window);
     }
 };
 
 TEST_F(Tour, Start) {
-    saveSettings({.width = 1200, .height = 760, .resolutionScale = 1, .referenceRuns = false},
+    saveSettings({.width = 1200, .height = 760, .resolutionScale = scaleOf(1), .referenceRuns = false},
                  at("viewer.json"));
     viewer_ = std::make_unique<Viewer>(options(""));
     frames(3);
