@@ -91,6 +91,43 @@ TEST_F(CommandTest, WrongUseExitsWithTwo) {
     }
 }
 
+TEST_F(CommandTest, WrongCamerasAndTechniquesOfLightsExitWithTwo) {
+    for (const char* arguments :
+         {"--look-from=1,2,3", "--look-at=1,2,3", "--look-from=1,2 --look-at=0,0,0",
+          "--look-from=1,2,3,4 --look-at=0,0,0", "--look-from=1,2,inf --look-at=0,0,0",
+          "--look-from=0,0,0 --look-at=0,0,0", "--look-from=1,2,3 --look-at=0,0,0 --fov 180",
+          "--look-from=1,2,3 --look-at=0,0,0 --camera 0", "--fov 30",
+          "--look-from=1,2,3 --look-at=0,0,0 --fov 30 --ortho-height 2", "--technique-of key",
+          "--technique-of nobody=hard", "--technique-of key=harder", "--set pcf.radius=2"}) {
+        const Outcome outcome = run("render primitives -t hard --size 8x8 -o " + at("a.png ") + arguments);
+        EXPECT_EQ(outcome.exitCode, 2) << arguments << "\n" << outcome.err;
+        EXPECT_FALSE(fs::exists(at("a.png"))) << arguments;
+    }
+}
+
+TEST_F(CommandTest, ACameraOfOnesOwnSeesWhatTheScenesSees) {
+    // The second camera of the closed-form scenes is not needed: this one is placed where --look-from can say
+    // it.
+    const std::string render = "render half-plane -t hard --size 32x32 ";
+    ASSERT_EQ(
+        run(render + "--look-from=0,3,0.001 --look-at=0,0,0 --ortho-height 2 -o " + at("a.png")).exitCode, 0);
+    ASSERT_EQ(
+        run(render + "--look-from=0,9,0.003 --look-at=0,0,0 --ortho-height 2 -o " + at("b.png")).exitCode, 0);
+    // Without perspective it does not matter from how far one looks.
+    EXPECT_EQ(readPng(at("a.png")).image.values, readPng(at("b.png")).image.values);
+    ASSERT_EQ(run(render + "--look-from=0,3,0.001 --look-at=0,0,0 --fov 20 -o " + at("c.png")).exitCode, 0);
+    EXPECT_NE(readPng(at("a.png")).image.values, readPng(at("c.png")).image.values);
+}
+
+TEST_F(CommandTest, ALightMayHaveATechniqueOfItsOwn) {
+    const std::string render = "render half-plane -t hard --size 32x32 ";
+    ASSERT_EQ(run(render + "--technique-of key=pcf --set pcf.map_size=64 -o " + at("a.png")).exitCode, 0);
+    ASSERT_EQ(run("render half-plane -t pcf --set map_size=64 --size 32x32 -o " + at("b.png")).exitCode, 0);
+    ASSERT_EQ(run(render + "-o " + at("c.png")).exitCode, 0);
+    EXPECT_EQ(readPng(at("a.png")).image.values, readPng(at("b.png")).image.values);
+    EXPECT_NE(readPng(at("a.png")).image.values, readPng(at("c.png")).image.values);
+}
+
 TEST_F(CommandTest, UnknownTechniqueIsAnsweredWithTheKnownOnes) {
     const Outcome outcome = run("render primitives -t exactly -o " + at("a.png"));
     EXPECT_EQ(outcome.exitCode, 2);

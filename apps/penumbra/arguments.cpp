@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "studio/errors.h"
+#include "studio/scene/look_at.h"
 
 namespace penumbra::studio {
 namespace {
@@ -18,6 +20,22 @@ std::optional<int> parseInt(std::string_view text) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
     return value;
+}
+
+glm::vec3 parsePoint(std::string_view flag, const std::string& text) {
+    glm::vec3 point(0);
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    bool good = true;
+    for (int i = 0; i < 3 && good; ++i) {
+        const auto [next, error] = std::from_chars(at, end, point[i]);
+        good = error == std::errc() && std::isfinite(point[i]) &&
+               (i == 2 ? next == end : next != end && *next == ',');
+        at = next + (i < 2);
+    }
+    if (!good)
+        throw UsageError(fmt::format("{} '{}' is not X,Y,Z in metres, for instance 1,2.5,-3", flag, text));
+    return point;
 }
 
 void addFileFlags(CLI::App& command, SceneArguments& arguments) {
@@ -31,6 +49,22 @@ void addFileFlags(CLI::App& command, SceneArguments& arguments) {
 void addViewFlags(CLI::App& command, SceneArguments& arguments) {
     command.add_option("--size", arguments.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
     command.add_option("--camera", arguments.camera, "a camera of the scene, by name or index");
+    CLI::Option* from = command
+                            .add_option("--look-from", arguments.lookFrom,
+                                        "X,Y,Z in metres: a camera of your own (--look-from=-1,2,3)")
+                            ->excludes("--camera");
+    CLI::Option* at =
+        command.add_option("--look-at", arguments.lookAt, "X,Y,Z: what --look-from looks at")->needs(from);
+    from->needs(at);
+    command.add_option("--fov", arguments.fov_deg, "degrees from bottom to top that --look-from sees")
+        ->needs(from)
+        ->check(CLI::Range(0.01f, 179.0f))
+        ->capture_default_str();
+    command
+        .add_option("--ortho-height", arguments.orthoHeight_m, "metres: --look-from sees without perspective")
+        ->needs(from)
+        ->excludes("--fov")
+        ->check(CLI::PositiveNumber);
     command.add_option("--time", arguments.time_s, "moment of the animation, in seconds")
         ->capture_default_str();
     command.add_option("--device", arguments.device, "index from 'penumbra list devices'");
@@ -38,9 +72,9 @@ void addViewFlags(CLI::App& command, SceneArguments& arguments) {
 
 }  // namespace
 
-void SceneArguments::addSceneTo(CLI::App& command) {
+void SceneArguments::addSceneTo(CLI::App& command, bool required) {
     command.add_option("SCENE", scene, "a glTF 2.0 file (.gltf, .glb) or the name of a built-in scene")
-        ->required();
+        ->required(required);
     addFileFlags(command, *this);
 }
 
@@ -66,6 +100,16 @@ Scene SceneArguments::open() const {
     return opened;
 }
 
+Camera SceneArguments::cameraIn(const SceneMoment& moment) const {
+    if (!lookFrom) return findCamera(moment, camera);
+    const LookAt look{.eye = parsePoint("--look-from", *lookFrom),
+                      .target = parsePoint("--look-at", *lookAt),
+                      .fov_deg = fov_deg,
+                      .height_m = orthoHeight_m};
+    if (look.eye == look.target) throw UsageError("--look-from and --look-at are the same place");
+    return lookAtCamera(look);
+}
+
 PictureSize SceneArguments::pictureSize() const {
     const std::size_t cross = size.find('x');
     const auto width = parseInt(std::string_view(size).substr(0, cross));
@@ -82,7 +126,7 @@ OpenedScene::OpenedScene(const SceneArguments& arguments)
     : size(arguments.pictureSize()),
       scene(arguments.open()),
       moment(scene.at(arguments.time_s)),
-      camera(findCamera(moment, arguments.camera)),
+      camera(arguments.cameraIn(moment)),
       workbench(arguments.device) {
     workbench.requireSize(size);
     workbench.open(scene);

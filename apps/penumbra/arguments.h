@@ -19,6 +19,9 @@ struct SceneArguments {
     std::string scene;
     std::optional<std::string> lightsFile;
     std::optional<std::string> camera;
+    std::optional<std::string> lookFrom, lookAt;
+    float fov_deg = 40;
+    std::optional<float> orthoHeight_m;
     std::optional<int> sceneIndex;
     int animation = 0;
     double time_s = 0;
@@ -30,11 +33,14 @@ struct SceneArguments {
     /// The flags alone, for subcommands that take several scenes.
     void addFlagsTo(CLI::App& command);
     /// SCENE, --lights, --scene and --animation alone.
-    void addSceneTo(CLI::App& command);
+    void addSceneTo(CLI::App& command, bool required = true);
 
     OpenOptions openOptions() const;
     /// Opens the scene and logs its warnings. Throws InputError.
     Scene open() const;
+    /// The camera that --camera names or --look-from places; the scene's first without either. Throws
+    /// UsageError.
+    Camera cameraIn(const SceneMoment& moment) const;
     /// Throws UsageError unless --size is WIDTHxHEIGHT.
     PictureSize pictureSize() const;
 };
@@ -47,7 +53,7 @@ struct OpenedScene {
     PictureSize size;
     Scene scene;
     SceneMoment moment;
-    const Camera& camera;  ///< of `moment`
+    Camera camera;  ///< of `moment`, or placed by --look-from
     Workbench workbench;
 };
 

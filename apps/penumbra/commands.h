@@ -13,5 +13,6 @@ void addBench(CLI::App& app);
 void addReproduce(CLI::App& app, const std::string& commandLine);
 void addInfo(CLI::App& app);
 void addList(CLI::App& app);
+void addView(CLI::App& app);
 
 }  // namespace penumbra::studio

@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
         "Exit codes: 0 done, 1 a requested threshold failed, 2 usage, 3 input missing or invalid,\n"
         "4 no usable OpenGL, 5 output not writable.");
     const std::string commandLine = joinArguments(argc, argv);
+    studio::addView(app);
     studio::addRender(app, commandLine);
     studio::addCompare(app, commandLine);
     studio::addBench(app);

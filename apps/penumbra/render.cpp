@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <charconv>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "apps/penumbra/arguments.h"
@@ -61,6 +63,7 @@ struct RenderArguments {
     std::string technique{defaultTechnique()};
     std::string output;
     std::string visibility;
+    std::vector<std::string> techniqueOfLight;
     std::vector<std::string> settings;
     std::string frames;
     double framesPerSecond = 24;
@@ -109,6 +112,61 @@ nlohmann::ordered_json statisticsJson(const Statistics& statistics) {
     return json;
 }
 
+/// The technique of -t, and those that --technique-of gives to single lights.
+class RenderTechniques {
+  public:
+    RenderTechniques(Workbench& workbench, const RenderArguments& arguments, const std::vector<Light>& lights)
+        : main_(arguments.technique) {
+        make(workbench, main_);
+        for (const std::string& text : arguments.techniqueOfLight) {
+            // A light's name may hold '=', a technique's does not.
+            const std::size_t equals = text.rfind('=');
+            const std::string light = text.substr(0, equals);
+            if (equals == std::string::npos || std::ranges::count(lights, light, &Light::name) == 0) {
+                throw UsageError(
+                    fmt::format("--technique-of '{}' is not LIGHT=NAME; the scene's lights are: {}", text,
+                                namesOf(lights)));
+            }
+            nameOfLight_[light] = text.substr(equals + 1);
+            make(workbench, nameOfLight_[light]);
+        }
+        for (const std::string& setting : arguments.settings) set(setting);
+    }
+
+    Technique& main() const { return *techniques_.at(main_); }
+    Technique& of(const Light& light) const {
+        const auto found = nameOfLight_.find(light.name);
+        return found == nameOfLight_.end() ? main() : *techniques_.at(found->second);
+    }
+
+  private:
+    void make(Workbench& workbench, const std::string& name) {
+        if (!techniques_.contains(name)) techniques_[name] = workbench.makeTechnique(name);
+    }
+
+    /// "KEY=VALUE" is for the technique of -t, "NAME.KEY=VALUE" for another one in use.
+    void set(const std::string& setting) {
+        const std::size_t dot = setting.find('.');
+        if (dot == std::string::npos || dot > setting.find('=')) return applySettings(main(), {setting});
+        const auto found = techniques_.find(setting.substr(0, dot));
+        if (found == techniques_.end()) {
+            throw UsageError(
+                fmt::format("--set '{}': no light uses the technique '{}'", setting, setting.substr(0, dot)));
+        }
+        applySettings(*found->second, {setting.substr(dot + 1)});
+    }
+
+    static std::string namesOf(const std::vector<Light>& lights) {
+        std::vector<std::string> names;
+        for (const Light& light : lights) names.push_back(light.name);
+        return fmt::format("{}", fmt::join(names, ", "));
+    }
+
+    std::string main_;
+    std::map<std::string, std::string> nameOfLight_;
+    std::map<std::string, std::unique_ptr<Technique>> techniques_;
+};
+
 class RenderCommand {
   public:
     RenderCommand(const RenderArguments& arguments, const std::string& commandLine)
@@ -120,8 +178,7 @@ class RenderCommand {
         const Scene scene = arguments_.scene.open();
         Workbench workbench(arguments_.scene.device);
         workbench.requireSize(size);
-        const std::unique_ptr<Technique> technique = workbench.makeTechnique(arguments_.technique);
-        applySettings(*technique, arguments_.settings);
+        const RenderTechniques techniques(workbench, arguments_, scene.at(arguments_.scene.time_s).lights);
         workbench.open(scene);
 
         Progress progress(arguments_.technique);
@@ -130,13 +187,13 @@ class RenderCommand {
             const auto outputs = outputsOf(frame);
             if (arguments_.skipExisting && allExist(outputs)) continue;
             const double done = double(frame - range.first) / (range.last - range.first + range.step);
-            if (auto* reference = dynamic_cast<ReferenceTechnique*>(technique.get())) {
+            if (auto* reference = dynamic_cast<ReferenceTechnique*>(&techniques.main())) {
                 const double share = double(range.step) / (range.last - range.first + range.step);
                 reference->setProgress(
                     [&, done, share](double fraction) { progress.update(done + share * fraction); });
             }
             progress.update(done);
-            renderFrame(workbench, *technique, scene, frame, size, outputs);
+            renderFrame(workbench, techniques, scene, frame, size, outputs);
         }
         if (arguments_.json) std::cout << report_.dump(2) << "\n";
     }
@@ -175,13 +232,14 @@ class RenderCommand {
                (outputs.visibility.empty() || fs::exists(outputs.visibility));
     }
 
-    void renderFrame(Workbench& workbench, Technique& technique, const Scene& scene, int frame,
+    void renderFrame(Workbench& workbench, const RenderTechniques& techniques, const Scene& scene, int frame,
                      PictureSize size, const Outputs& outputs) {
         const double time_s =
             arguments_.frames.empty() ? arguments_.scene.time_s : frame / arguments_.framesPerSecond;
         const SceneMoment moment = scene.at(time_s);
-        const TechniqueResult result = workbench.run(arguments_.technique, technique, moment,
-                                                     findCamera(moment, arguments_.scene.camera), size);
+        const TechniqueResult result = workbench.run(
+            arguments_.technique, [&](const Light& light) -> Technique& { return techniques.of(light); },
+            moment, arguments_.scene.cameraIn(moment), size);
         if (!outputs.picture.empty()) writePicture(outputs.picture, result, metadata_);
         if (!outputs.visibility.empty()) writeVisibility(outputs.visibility, result, metadata_);
 
@@ -214,12 +272,18 @@ void addRender(CLI::App& app, const std::string& commandLine) {
     arguments->scene.addTo(*command);
     command->add_option("-t,--technique", arguments->technique, "see 'penumbra list techniques'")
         ->capture_default_str();
+    command
+        ->add_option("--technique-of", arguments->techniqueOfLight,
+                     "LIGHT=NAME: another technique for one light; may be repeated")
+        ->take_all();
     command->add_option("-o,--output", arguments->output,
                         "the picture: .png (as shown) or .exr (linear, nits)");
     command->add_option("--visibility", arguments->visibility,
                         "the visibility buffer of each light, as .exr");
     command
-        ->add_option("--set", arguments->settings, "KEY=VALUE: a parameter of the technique; may be repeated")
+        ->add_option("--set", arguments->settings,
+                     "KEY=VALUE: a parameter of the technique, NAME.KEY=VALUE of one of --technique-of; may "
+                     "be repeated")
         ->take_all();
     command->add_option("--frames", arguments->frames,
                         "A-B or A-BxSTEP: an animation, into numbered files (#### in -o)");

@@ -44,6 +44,7 @@ class FrameRenderer {
     /// The picture as shown: exposed, tone mapped, sRGB-encoded RGBA8. Owned by the frame, as are the
     /// textures below; all have the size of the last draw() and are replaced when it changes.
     const gl::Texture& toneMap();
+    const gl::Texture& radiance() const { return radiance_; }        ///< nits, RGBA32F
     const gl::Texture& illuminance() const { return illuminance_; }  ///< lux on each surface, R32F
     const gl::Texture& reach() const { return reach_; }              ///< see readReach()
     const GBuffer& gbuffer() const { return gbuffer_; }

@@ -26,12 +26,20 @@ void Workbench::open(const Scene& scene) {
 
 TechniqueResult Workbench::run(std::string_view name, Technique& technique, const SceneMoment& moment,
                                const Camera& camera, PictureSize size, int timedRuns) {
+    return run(
+        name, [&](const Light&) -> Technique& { return technique; }, moment, camera, size, timedRuns);
+}
+
+TechniqueResult Workbench::run(std::string_view name, const TechniqueOf& techniqueOf,
+                               const SceneMoment& moment, const Camera& camera, PictureSize size,
+                               int timedRuns) {
     requireSize(size);
     scene_->update(moment);
     frame_.draw(*scene_, moment, camera, size.width_px, size.height_px);
 
     TechniqueResult result{.technique = std::string(name)};
     for (const Light& light : moment.lights) {
+        Technique& technique = techniqueOf(light);
         LightResult& lightResult = result.lights.emplace_back();
         lightResult.light = light.name;
         const ShadowInputs inputs = frame_.shadowInputs(light);

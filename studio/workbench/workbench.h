@@ -2,7 +2,7 @@
 // Where scenes, techniques and pictures meet: what the command and the tests do with them.
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,6 +66,10 @@ class Workbench {
 
     /// Renders all lights of `moment`, each once, and then `timedRuns` more times with the clock running.
     TechniqueResult run(std::string_view name, Technique& technique, const SceneMoment& moment,
+                        const Camera& camera, PictureSize size, int timedRuns = 0);
+    /// The same where lights have techniques of their own.
+    using TechniqueOf = std::function<Technique&(const Light&)>;
+    TechniqueResult run(std::string_view name, const TechniqueOf& techniqueOf, const SceneMoment& moment,
                         const Camera& camera, PictureSize size, int timedRuns = 0);
 
     /// Throws UsageError if the device cannot make pictures of this size.

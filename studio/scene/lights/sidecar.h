@@ -43,6 +43,10 @@ Sidecar parseSidecar(std::string_view json, const std::string& fileName);
 /// Reads and parses a file. Throws InputError.
 Sidecar readSidecar(const std::filesystem::path& file);
 
+/// The text of a file that parseSidecar reads as `sidecar`. Emission, size and place of a light come back as
+/// the same floats; angles and the rotation may differ in the last bit, having been degrees and a quaternion.
+std::string formatSidecar(const Sidecar& sidecar);
+
 /// Replaces the scene's lights (if the sidecar has any say in them) and classifies its nodes, at all times. A
 /// light that hangs on a node follows its place and rotation, not its scale. Textures are read from beneath
 /// `folder` only. Throws InputError for an unknown or ambiguous node and for a texture that cannot be read.

@@ -61,6 +61,54 @@ TEST(Sidecar, TheExampleOfTheManual) {
     EXPECT_FLOAT_EQ(sidecar.lights->at(2).light.shape.angle_rad, 0.53f * pi / 180);
 }
 
+TEST(Sidecar, WhatIsWrittenReadsBackTheSame) {
+    const Sidecar written = parseSidecar(R"({"version": 1, "lights": [
+      {"name": "a \"quoted\" \u00e9", "type": "RectLight", "width": 1.1, "height": 0, "intensity": 8123.7,
+       "color": [0.1, 0.7, 0.3], "texture:file": "window.png", "translation": [0.1, 4, -1e-7], "twoSided": true,
+       "rotation": [-0.7071068, 0, 0, 0.7071068]},
+      {"name": "b", "type": "DiskLight", "radius": 0.3, "exposure": 3.3, "shaping:cone:angle": 30,
+       "shaping:cone:softness": 0.25, "shadow:enable": false},
+      {"name": "c", "type": "SphereLight", "radius": 0, "intensity": 0, "node": "Lamp"},
+      {"name": "d", "type": "DistantLight", "angle": 0.53}],
+      "nodes": {"Sky": {"casts": false}, "Floor": {"casts": true, "receives": false}}})",
+                                         "a.lights.json");
+    const std::string text = formatSidecar(written);
+    const Sidecar read = parseSidecar(text, "b.lights.json");
+    ASSERT_EQ(read.lights->size(), written.lights->size());
+    for (std::size_t i = 0; i < read.lights->size(); ++i) {
+        const SidecarLight &a = (*written.lights)[i], &b = (*read.lights)[i];
+        EXPECT_EQ(a.light.name, b.light.name);
+        EXPECT_EQ(a.light.shape.shape, b.light.shape.shape);
+        EXPECT_EQ(a.light.shape.width_m, b.light.shape.width_m);
+        EXPECT_EQ(a.light.shape.height_m, b.light.shape.height_m);
+        EXPECT_EQ(a.light.shape.radius_m, b.light.shape.radius_m);
+        EXPECT_FLOAT_EQ(a.light.shape.angle_rad, b.light.shape.angle_rad);
+        EXPECT_EQ(a.light.shape.twoSided, b.light.shape.twoSided);
+        EXPECT_EQ(a.light.emission.unit, b.light.emission.unit);
+        EXPECT_EQ(a.light.emission.value, b.light.emission.value);  // bit for bit
+        EXPECT_EQ(a.light.castsShadow, b.light.castsShadow);
+        ASSERT_EQ(a.light.cone_rad.has_value(), b.light.cone_rad.has_value());
+        for (std::size_t k = 0; a.light.cone_rad && k < 2; ++k) {
+            EXPECT_FLOAT_EQ((*a.light.cone_rad)[k], (*b.light.cone_rad)[k]);
+        }
+        EXPECT_EQ(a.parentFromLight[3], b.parentFromLight[3]);
+        for (int column = 0; column < 3; ++column) {
+            // A quaternion of six digits and back: 1e-6.
+            EXPECT_NEAR(glm::distance(a.parentFromLight[column], b.parentFromLight[column]), 0, 1e-6);
+        }
+        EXPECT_EQ(a.node, b.node);
+        EXPECT_EQ(a.textureFile, b.textureFile);
+    }
+    ASSERT_EQ(read.nodes.size(), 2u);
+    EXPECT_EQ(read.nodes[0].name, "Sky");
+    EXPECT_EQ(read.nodes[0].casts, false);
+    EXPECT_FALSE(read.nodes[0].receives);
+    EXPECT_EQ(read.nodes[1].receives, false);
+    // A sidecar that says nothing about lights still says nothing.
+    EXPECT_FALSE(parseSidecar(formatSidecar({.fileName = "c", .lights = {}, .nodes = {}}), "c").lights);
+    EXPECT_TRUE(parseSidecar(formatSidecar({.lights = std::vector<SidecarLight>()}), "c").lights->empty());
+}
+
 TEST(Sidecar, DefaultsAreThoseOfUsdLux) {
     const Light rect = onlyLight(R"("type": "RectLight")");
     EXPECT_EQ(rect.shape.width_m, 1);

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <nlohmann/json.hpp>
+
+#include "studio/scene/lights/sidecar.h"
+
+namespace penumbra::studio {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The shortest decimal that reads back as the same float, where the double next to it would have 17 digits.
+Json number(float value) {
+    return Json::parse(fmt::format("{}", value));
+}
+
+template <int count>
+Json list(const glm::vec<count, float>& values) {
+    Json json = Json::array();
+    for (int i = 0; i < count; ++i) json.push_back(number(values[i]));
+    return json;
+}
+
+std::string_view typeOf(LightShape shape) {
+    switch (shape) {
+        case LightShape::rect:
+            return "RectLight";
+        case LightShape::disk:
+            return "DiskLight";
+        case LightShape::sphere:
+            return "SphereLight";
+        case LightShape::distant:
+            return "DistantLight";
+    }
+    return "";
+}
+
+/// Luminance as intensity and colour whose largest part is 1, as a person writes it. Where rounding keeps
+/// their product from being the same float again, all of it stands in the colour.
+void writeEmission(Json& json, const glm::vec3& value) {
+    const float largest = std::max({value.r, value.g, value.b});
+    glm::vec3 color = largest > 0 ? value / largest : glm::vec3(1);
+    for (int channel = 0; channel < 3; ++channel) {
+        for (const float neighbour :
+             {color[channel], std::nextafter(color[channel], 0.0f), std::nextafter(color[channel], 2.0f)}) {
+            if (neighbour * largest != value[channel]) continue;
+            color[channel] = neighbour;
+            break;
+        }
+    }
+    const bool exact = color * largest == value;
+    json["intensity"] = exact ? number(largest) : number(1);
+    json["color"] = list(exact ? color : value);
+}
+
+void writeSize(Json& json, const AreaLight& shape) {
+    switch (shape.shape) {
+        case LightShape::rect:
+            json["width"] = number(shape.width_m);
+            json["height"] = number(shape.height_m);
+            break;
+        case LightShape::disk:
+        case LightShape::sphere:
+            json["radius"] = number(shape.radius_m);
+            break;
+        case LightShape::distant:
+            json["angle"] = number(glm::degrees(shape.angle_rad));
+            break;
+    }
+}
+
+Json write(const SidecarLight& written) {
+    const Light& light = written.light;
+    Json json = {{"name", light.name}, {"type", typeOf(light.shape.shape)}};
+    writeSize(json, light.shape);
+    writeEmission(json, light.emission.value);
+    if (!written.textureFile.empty()) json["texture:file"] = written.textureFile;
+    if (light.shape.twoSided) json["twoSided"] = true;
+    if (!light.castsShadow) json["shadow:enable"] = false;
+    if (light.cone_rad) {
+        const auto [inner_rad, outer_rad] = *light.cone_rad;
+        json["shaping:cone:angle"] = number(glm::degrees(outer_rad));
+        json["shaping:cone:softness"] = number(outer_rad > 0 ? 1 - inner_rad / outer_rad : 0);
+    }
+    if (!written.node.empty()) json["node"] = written.node;
+    json["translation"] = list(glm::vec3(written.parentFromLight[3]));
+    const glm::quat rotation = glm::normalize(glm::quat_cast(glm::mat3(written.parentFromLight)));
+    json["rotation"] = list(glm::vec4(rotation.x, rotation.y, rotation.z, rotation.w));
+    return json;
+}
+
+Json write(const SidecarNode& node) {
+    Json json = Json::object();
+    if (node.casts) json["casts"] = *node.casts;
+    if (node.receives) json["receives"] = *node.receives;
+    return json;
+}
+
+}  // namespace
+
+std::string formatSidecar(const Sidecar& sidecar) {
+    // One line a light, as a person would write it: nlohmann's indentation would put every number on its own.
+    std::string text = "{\n  \"version\": 1";
+    if (sidecar.lights) {
+        text += ",\n  \"lights\": [";
+        for (const SidecarLight& light : *sidecar.lights) {
+            text += (&light == sidecar.lights->data() ? "\n    " : ",\n    ") + write(light).dump();
+        }
+        text += sidecar.lights->empty() ? "]" : "\n  ]";
+    }
+    if (!sidecar.nodes.empty()) {
+        Json nodes = Json::object();
+        for (const SidecarNode& node : sidecar.nodes) nodes[node.name] = write(node);
+        text += ",\n  \"nodes\": " + nodes.dump();
+    }
+    return text + "\n}\n";
+}
+
+}  // namespace penumbra::studio

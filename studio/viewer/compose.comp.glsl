@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 450
+// The canvas: pictures side by side, or a number of each pixel as a colour.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#include "studio/viewer/compose_io.h"
+
+// As Shown in canvas.h.
+const int shownPicture = 0;
+const int shownDifference = 1;
+const int shownError = 2;
+const int shownVisibility = 3;
+const int shownIlluminance = 4;
+
+layout(std140, binding = 0) uniform ComposeBlock { ComposeConstants constants; };
+layout(binding = 0) uniform sampler2D displayA;
+layout(binding = 1) uniform sampler2D displayB;
+layout(binding = 2) uniform sampler2D visibilityA;
+layout(binding = 3) uniform sampler2D visibilityB;
+layout(binding = 4) uniform sampler2D illuminanceA;
+layout(binding = 5) uniform sampler2D illuminanceB;
+layout(binding = 6) uniform sampler2D depthTexture;
+layout(binding = 7) uniform sampler2D reachTexture;
+layout(binding = 8) uniform sampler2D orderedMap;
+layout(binding = 9) uniform sampler2D divergingMap;
+layout(binding = 0, rgba8) uniform writeonly image2D canvasImage;
+
+// Coloured visibility counts by the mean of its channels; others repeat their one (their textures are swizzled so).
+float visibility(sampler2D visibilityTexture, ivec2 pixel) {
+    return dot(texelFetch(visibilityTexture, pixel, 0).rgb, vec3(1.0 / 3.0));
+}
+
+float illuminance(ivec2 pixel) {
+    pixel = clamp(pixel, ivec2(0), constants.size.xy - 1);
+    return pixel.x < int(constants.range.w) ? texelFetch(illuminanceA, pixel, 0).r
+                                            : texelFetch(illuminanceB, pixel, 0).r;
+}
+
+// Place of a value in the map's range, in [0, 1].
+float placeOf(float value) {
+    vec2 range = constants.range.xy;
+    if (constants.range.z > 0.5) {
+        value = log(max(value, 1e-20));
+        range = log(max(range, 1e-20));
+    }
+    return clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
+}
+
+vec3 colorOf(sampler2D map, float place) {
+    return texelFetch(map, ivec2(clamp(place, 0.0, 1.0) * 255.0 + 0.5, 0), 0).rgb;
+}
+
+// How many of the levels ... 0.5, 1, 2, 5, 10 ... lie at or below the value.
+int levelsBelow(float value) {
+    if (value < 1e-6) return -100;
+    float decade = floor(log(value) / log(10.0) + 1e-6);
+    float digit = value / pow(10.0, decade);
+    return 3 * int(decade) + (digit >= 4.9999 ? 2 : digit >= 1.9999 ? 1 : 0);
+}
+
+bool isOnIsoline(ivec2 pixel) {
+    int here = levelsBelow(illuminance(pixel));
+    return here != levelsBelow(illuminance(pixel + ivec2(1, 0))) ||
+           here != levelsBelow(illuminance(pixel + ivec2(0, 1)));
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, constants.size.xy))) return;
+    bool isB = pixel.x >= int(constants.range.w);
+    vec3 shown = isB ? texelFetch(displayB, pixel, 0).rgb : texelFetch(displayA, pixel, 0).rgb;
+    int kind = constants.size.z;
+    bool hasSurface = texelFetch(depthTexture, pixel, 0).r > 0.0;
+    // Errors count where the unshadowed light arrives and nowhere else.
+    bool isJudged = hasSurface && texelFetch(reachTexture, pixel, 0).r > 0.0;
+    vec3 faded = vec3(0.1 + 0.15 * dot(shown, vec3(0.3, 0.6, 0.1)));
+
+    if (kind == shownDifference) {
+        float difference = visibility(visibilityA, pixel) - visibility(visibilityB, pixel);
+        shown = isJudged ? colorOf(divergingMap, 0.5 + 0.5 * difference / constants.range.y) : faded;
+    } else if (kind == shownError) {
+        float difference = visibility(visibilityA, pixel) - visibility(visibilityB, pixel);
+        shown = isJudged ? colorOf(orderedMap, placeOf(abs(difference))) : faded;
+    } else if (kind == shownVisibility) {
+        float value = isB ? visibility(visibilityB, pixel) : visibility(visibilityA, pixel);
+        shown = isJudged ? colorOf(orderedMap, placeOf(value)) : faded;
+    } else if (kind == shownIlluminance) {
+        float value = illuminance(pixel);
+        shown = hasSurface ? colorOf(orderedMap, placeOf(value)) : vec3(0.1);
+        if (hasSurface && constants.size.w == 1 && isOnIsoline(pixel)) {
+            // Dark on light colours, light on dark ones.
+            shown = placeOf(value) > 0.45 ? vec3(0.0) : vec3(1.0);
+        }
+    }
+    imageStore(canvasImage, pixel, vec4(shown, 1.0));
+}

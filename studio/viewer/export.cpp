@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/viewer/export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "studio/errors.h"
+#include "studio/image/image_io.h"
+
+namespace penumbra::studio::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A word of a POSIX shell's command line.
+std::string shellWord(const std::string& word) {
+    const bool plain = !word.empty() && word.find_first_not_of(
+                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                            "0123456789-_./=,:+@%") == std::string::npos;
+    if (plain) return word;
+    std::string result = "'";
+    for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return result + "'";
+}
+
+std::string triple(const glm::vec3& v) {
+    return fmt::format("{},{},{}", v.x, v.y, v.z);
+}
+
+/// "--look-from=..." in one word each, since a leading minus would look like another flag.
+std::string cameraFlags(const Session& session) {
+    if (session.choices().sceneCamera >= 0) {
+        if (session.choices().sceneCamera == 0) return "";
+        return fmt::format(" --camera {}", session.choices().sceneCamera);
+    }
+    const LookAt look = session.cameraControl().lookAt();
+    std::string flags = fmt::format(" --look-from={} --look-at={}", triple(look.eye), triple(look.target));
+    return flags + (look.height_m ? fmt::format(" --ortho-height={}", *look.height_m)
+                                  : fmt::format(" --fov={}", look.fov_deg));
+}
+
+std::string techniqueFlags(Session& session) {
+    const Choices& choices = session.choices();
+    std::string flags = " -t " + choices.technique;
+    const auto parameters = [&](const std::string& name, const std::string& prefix) {
+        if (name == referenceName)
+            return fmt::format(" --set {}samples={}", prefix, choices.referenceSamples);
+        std::string settings;
+        for (const auto& [key, value] : session.techniques().changes(name)) {
+            settings += fmt::format(" --set {}{}={}", prefix, key, value);
+        }
+        return settings;
+    };
+    flags += parameters(choices.technique, "");
+    std::vector<std::string> named;
+    for (const Light& light : session.document().moment().lights) {
+        const std::string name = session.techniqueOf(light);
+        if (name == choices.technique) continue;
+        flags += " --technique-of " + shellWord(light.name + "=" + name);
+        if (std::ranges::count(named, name) != 0) continue;
+        named.push_back(name);
+        flags += parameters(name, name + ".");
+    }
+    return flags;
+}
+
+std::string shownName(Shown shown) {
+    switch (shown) {
+        case Shown::picture:
+            return "picture";
+        case Shown::difference:
+            return "difference";
+        case Shown::error:
+            return "error";
+        case Shown::visibility:
+            return "visibility";
+        case Shown::illuminance:
+            return "illuminance";
+    }
+    return "";
+}
+
+Metadata metadataOf(const Session& session, const std::string& command) {
+    const Choices& choices = session.choices();
+    const CanvasOptions options = session.canvasOptions();
+    return {
+        {"Software", "penumbra viewer"},
+        {"penumbra:command", command},
+        {"penumbra:renderer", session.device().renderer()},
+        {"penumbra:shown", shownName(choices.shown)},
+        {"penumbra:sides", choices.comparing ? choices.technique + " | " + choices.other : choices.technique},
+        {"penumbra:range", fmt::format("{} to {}{}", options.range.min, options.range.max,
+                                       options.logarithmic ? ", logarithmic" : "")}};
+}
+
+}  // namespace
+
+std::string renderCommand(Session& session, const fs::path& folder) {
+    const Document& document = session.document();
+    std::string scene = document.nameOrPath();
+    std::error_code error;
+    if (fs::exists(scene, error)) scene = fs::absolute(scene, error).string();
+    std::string line = "penumbra render " + shellWord(scene);
+    const OpenOptions& options = document.options();
+    if (document.lights().edited()) {
+        const fs::path lights =
+            document.lights().snapshot(document.scene(), folder / "lights", document.sidecar());
+        line += " --lights " + shellWord(lights.string());
+    } else if (options.lightsFile) {
+        line += " --lights " + shellWord(fs::absolute(*options.lightsFile, error).string());
+    }
+    if (options.scene) line += fmt::format(" --scene {}", *options.scene);
+    if (options.animation != 0) line += fmt::format(" --animation {}", options.animation);
+    if (document.time_s() != 0) line += fmt::format(" --time {}", document.time_s());
+    line += cameraFlags(session) + techniqueFlags(session);
+    line += fmt::format(" --size {}x{} -o picture.png", session.width_px(), session.height_px());
+    return line;
+}
+
+void savePicture(Session& session, const fs::path& file, const std::string& command) {
+    const Side& side = session.side(0);
+    const int width = session.width_px(), height = session.height_px();
+    if (file.extension() == ".png") {
+        writePng(file, readTexture(side.display.name(), width, height, 3), metadataOf(session, command));
+    } else if (file.extension() == ".exr") {
+        const Image radiance = readTexture(side.radiance.name(), width, height, 3);
+        std::vector<ExrChannel> channels = channelsOf(radiance, "");
+        const Image lux = readTexture(side.illuminance.name(), width, height, 1);
+        channels.push_back({"illuminance", lux.values});
+        writeExr(file, {width, height, std::move(channels), metadataOf(session, command)});
+    } else {
+        throw UsageError(fmt::format("'{}': pictures are .png or .exr", file.string()));
+    }
+}
+
+void saveCanvas(const Session& session, const fs::path& file, const std::string& command) {
+    const gl::Texture& canvas = session.canvas().texture();
+    writePng(file, readTexture(canvas.name(), canvas.width_px(), canvas.height_px(), 3),
+             metadataOf(session, command));
+}
+
+void Recorder::start(const Plan& plan) {
+    if (plan.last < plan.first || plan.first < 0 || !(plan.framesPerSecond > 0)) {
+        throw UsageError(
+            "a recording needs frames from 0 up, the last not before the first, and a positive "
+            "number of them a second");
+    }
+    std::error_code error;
+    fs::create_directories(plan.folder, error);
+    if (!fs::is_directory(plan.folder, error)) {
+        throw OutputError(fmt::format("{}: is no folder and cannot be made one", plan.folder.string()));
+    }
+    plan_ = plan;
+    next_ = plan.first;
+    active_ = true;
+}
+
+double Recorder::fraction() const {
+    return double(next_ - plan_.first) / double(plan_.last - plan_.first + 1);
+}
+
+void Recorder::write(Session& session, const std::string& command) {
+    active_ = false;  // unless all goes well
+    saveCanvas(session, plan_.folder / fmt::format("frame.{:04}.png", next_), command);
+    active_ = ++next_ <= plan_.last;
+}
+
+}  // namespace penumbra::studio::viewer

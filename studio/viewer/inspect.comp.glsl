@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 450
+// A texture as a picture: one layer, from black to white over a range that is given, or over what is in it.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#ifdef LAYERED
+layout(binding = 0) uniform sampler2DArray inspected;
+#else
+layout(binding = 0) uniform sampler2D inspected;
+#endif
+layout(location = 0) uniform ivec2 size;
+layout(location = 1) uniform vec2 range;  // black, white
+layout(location = 2) uniform int layer;
+layout(location = 3) uniform bool grey;  // the texture has one channel
+layout(location = 4) uniform bool stretched;
+// From inspect_range.comp.glsl.
+layout(std430, binding = 0) readonly buffer Range {
+    uint least;
+    uint largest;
+};
+layout(binding = 0, rgba8) uniform writeonly image2D picture;
+
+float unordered(uint bits) {
+    return uintBitsToFloat((bits & 0x80000000u) != 0u ? bits & 0x7fffffffu : ~bits);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, size))) return;
+#ifdef LAYERED
+    vec4 value = texelFetch(inspected, ivec3(pixel, layer), 0);
+#else
+    vec4 value = texelFetch(inspected, pixel, 0);
+#endif
+    vec2 ends = stretched && least < largest ? vec2(unordered(least), unordered(largest)) : range;
+    vec3 shown = (value.rgb - ends.x) / (ends.y - ends.x);
+    if (grey) shown = shown.rrr;
+    // What is not a number shall catch the eye, not vanish.
+    if (any(isnan(shown))) shown = vec3(1.0, 0.0, 1.0);
+    imageStore(picture, pixel, vec4(clamp(shown, 0.0, 1.0), 1.0));
+}

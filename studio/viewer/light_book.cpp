@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/viewer/light_book.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
+
+#include "studio/errors.h"
+#include "studio/image/atomic_file.h"
+#include "studio/image/image_io.h"
+#include "studio/reference/content_hash.h"
+#include "studio/scene/builtin/placing.h"
+#include "studio/scene/gltf/lights.h"
+
+namespace penumbra::studio::viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How much of its emission's unit (nits, candela, lux) a light gives to a surface far off that faces it: the
+/// area or the solid angle that it shows, or 1 for a light of size zero.
+float effect(const AreaLight& shape) {
+    constexpr float pi = std::numbers::pi_v<float>;
+    switch (shape.shape) {
+        case LightShape::rect:
+            return shape.width_m * shape.height_m;
+        case LightShape::disk:
+        case LightShape::sphere:
+            return pi * shape.radius_m * shape.radius_m;
+        case LightShape::distant: {
+            const float sine = std::sin(0.5f * shape.angle_rad);
+            return pi * sine * sine;
+        }
+    }
+    return 0;
+}
+
+void setUnit(Light& light) {
+    const bool hasSize = effect(light.shape) > 0;
+    light.emission.unit = hasSize                                    ? Emission::Unit::nits
+                          : light.shape.shape == LightShape::distant ? Emission::Unit::lux
+                                                                     : Emission::Unit::candela;
+}
+
+/// "lamp", or "lamp 2" where that is taken.
+void makeNamesUnique(std::vector<Light>& lights) {
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const std::string wanted = lights[i].name.empty() ? "light" : lights[i].name;
+        lights[i].name = wanted;
+        const auto isTaken = [&] {
+            return std::any_of(lights.begin(), lights.begin() + std::ptrdiff_t(i),
+                               [&](const Light& other) { return other.name == lights[i].name; });
+        };
+        for (int number = 2; isTaken(); ++number) lights[i].name = fmt::format("{} {}", wanted, number);
+    }
+}
+
+/// What a file of these lights says, read back.
+std::vector<Light> throughText(const std::vector<SidecarLight>& lights) {
+    const Sidecar sidecar{.fileName = "edited lights", .lights = lights};
+    const Sidecar read = parseSidecar(formatSidecar(sidecar), sidecar.fileName);
+    std::vector<Light> result;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        Light light = read.lights->at(i).light;
+        light.shape.worldFromLight = std::bit_cast<Mat4>(gltf::rigidPart(read.lights->at(i).parentFromLight));
+        light.texture = lights[i].light.texture;
+        result.push_back(std::move(light));
+    }
+    return result;
+}
+
+struct LightFiles {
+    std::string text;
+    std::vector<std::pair<std::string, Image>> pictures;  ///< by file name
+};
+
+LightFiles filesOf(const Scene& scene, std::vector<SidecarLight> lights, const std::string& stem,
+                   std::vector<SidecarNode> nodes) {
+    LightFiles files;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const int texture = lights[i].light.texture;
+        if (texture < 0) continue;
+        const Picture& picture = scene.pictures[std::size_t(scene.textures[std::size_t(texture)].picture)];
+        Image image(picture.width_px, picture.height_px, 4);
+        std::ranges::transform(picture.rgba, image.values.begin(),
+                               [](std::uint8_t value) { return float(value) / 255.0f; });
+        lights[i].textureFile = fmt::format("{}.light{}.png", stem, i + 1);
+        files.pictures.emplace_back(lights[i].textureFile, std::move(image));
+    }
+    files.text = formatSidecar({.fileName = stem, .lights = std::move(lights), .nodes = std::move(nodes)});
+    return files;
+}
+
+std::vector<SidecarNode> nodesOf(const fs::path& sidecar) {
+    std::error_code error;
+    return fs::exists(sidecar, error) ? readSidecar(sidecar).nodes : std::vector<SidecarNode>();
+}
+
+void write(const LightFiles& files, const fs::path& file) {
+    for (const auto& [name, picture] : files.pictures) writePng(file.parent_path() / name, picture);
+    writeFileAtomically(file, files.text);
+}
+
+}  // namespace
+
+Light newLight(const Bounds& bounds, std::size_t number) {
+    Light light = keyLight("new light", bounds);
+    // The golden angle: never where one was before.
+    const glm::mat4 turn = glm::translate(glm::mat4(1), bounds.center()) *
+                           glm::rotate(glm::mat4(1), 2.4f * float(number), glm::vec3(0, 1, 0)) *
+                           glm::translate(glm::mat4(1), -bounds.center());
+    light.shape.worldFromLight =
+        std::bit_cast<Mat4>(turn * std::bit_cast<glm::mat4>(light.shape.worldFromLight));
+    return light;
+}
+
+void changeShape(Light& light, LightShape shape) {
+    AreaLight& area = light.shape;
+    if (area.shape == shape) return;
+    const glm::mat4 worldFromLight = std::bit_cast<glm::mat4>(area.worldFromLight);
+    const float distance_m = std::max(glm::length(glm::vec3(worldFromLight[3])), 0.1f);
+    const glm::vec3 color = light.emission.value * effect(area);
+    const bool wasDistant = area.shape == LightShape::distant;
+    const float radius_m = area.shape == LightShape::rect ? 0.5f * std::sqrt(area.width_m * area.height_m)
+                           : wasDistant                   ? distance_m * std::tan(0.5f * area.angle_rad)
+                                                          : area.radius_m;
+    area.shape = shape;
+    area.width_m = area.height_m = shape == LightShape::rect ? 2 * radius_m : 0;
+    area.radius_m = shape == LightShape::disk || shape == LightShape::sphere ? radius_m : 0;
+    area.angle_rad = shape == LightShape::distant ? 2 * std::atan(radius_m / distance_m) : 0;
+    if (shape != LightShape::rect) light.texture = -1;
+    if (shape == LightShape::distant) light.cone_rad.reset();
+    if (shape == LightShape::sphere || shape == LightShape::distant) area.twoSided = false;
+    // Candela at a distance are lux of a distant light.
+    const float toLux = (shape == LightShape::distant) == wasDistant ? 1.0f
+                        : wasDistant                                 ? distance_m * distance_m
+                                                                     : 1 / (distance_m * distance_m);
+    const float now = effect(area);
+    light.emission.value = color * toLux / (now > 0 ? now : 1);
+    setUnit(light);
+}
+
+void setSize(Light& light, float AreaLight::*size, float value) {
+    const float before = effect(light.shape);
+    light.shape.*size = value;
+    const float now = effect(light.shape);
+    if ((before > 0) != (now > 0)) light.emission.value *= now > 0 ? 1 / now : before;
+    setUnit(light);
+}
+
+void LightBook::apply(SceneMoment& moment) const {
+    if (edited_) moment.lights = *edited_;
+}
+
+void LightBook::edit(std::vector<Light> lights) {
+    makeNamesUnique(lights);
+    written_.clear();
+    for (const Light& light : lights) {
+        written_.push_back(
+            {.light = light, .parentFromLight = std::bit_cast<glm::mat4>(light.shape.worldFromLight)});
+    }
+    edited_ = throughText(written_);
+    unsaved_ = true;
+}
+
+void LightBook::revert() {
+    written_.clear();
+    edited_.reset();
+    unsaved_ = false;
+}
+
+void LightBook::save(const Scene& scene, const fs::path& file) {
+    write(filesOf(scene, written_, file.stem().stem().string(), nodesOf(file)), file);
+    unsaved_ = false;
+}
+
+fs::path LightBook::snapshot(const Scene& scene, const fs::path& folder, const fs::path& sidecar) const {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    const std::vector<SidecarNode> nodes = nodesOf(sidecar);
+    LightFiles files = filesOf(scene, written_, "lights", nodes);
+    ContentHasher hasher;
+    hasher.addArray(files.text);
+    for (const auto& [name, picture] : files.pictures) hasher.addArray(picture.values);
+    const std::string stem = hasher.hash().hex();
+    files = filesOf(scene, written_, stem, nodes);
+    const fs::path file = folder / (stem + ".lights.json");
+    if (!fs::exists(file, error)) write(files, file);
+    return file;
+}
+
+}  // namespace penumbra::studio::viewer

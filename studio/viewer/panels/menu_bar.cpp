@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "studio/scene/builtin/builtin.h"
+#include "studio/viewer/panels/panels.h"
+
+namespace penumbra::studio::viewer {
+namespace {
+
+void drawFileMenu(Ui& ui, Session& session, const Settings& settings, Desk& desk, Requests& requests) {
+    if (!ui.beginMenu("File")) return;
+    if (ui.menuItem("Open...", "Ctrl+O")) desk.asksForPath = true;
+    if (ui.beginMenu("Built-in scenes")) {
+        for (const BuiltinInfo& info : builtinScenes()) {
+            if (ui.menuItem(std::string(info.name).c_str())) requests.open = std::string(info.name);
+            ui.tip(info.summary);
+        }
+        ImGui::EndMenu();
+    }
+    if (ui.beginMenu("Recent", !settings.recentFiles.empty())) {
+        for (const std::string& file : settings.recentFiles) {
+            if (ui.menuItem(file.c_str())) requests.open = file;
+        }
+        ImGui::EndMenu();
+    }
+    ImGui::Separator();
+    if (ui.menuItem("Save lights", "Ctrl+S", false, session.hasDocument())) requests.saveLights = true;
+    if (ui.menuItem("Save picture", "F2")) requests.savePicture = true;
+    if (ui.menuItem("Save what is shown", "F3")) requests.saveCanvas = true;
+    if (ui.menuItem("Copy command", "Ctrl+C")) requests.copyCommand = true;
+    ui.tip("The line that renders this very picture without a window");
+    ImGui::Separator();
+    if (ui.menuItem("Read shaders again", "F5")) requests.reloadShaders = true;
+    if (ui.menuItem("Quit", "Ctrl+Q")) requests.quit = true;
+    ImGui::EndMenu();
+}
+
+void drawCameraMenu(Ui& ui, Session& session, Requests& requests) {
+    if (!ui.beginMenu("Camera")) return;
+    if (ui.menuItem("Frame all", "F")) requests.frameAll = true;
+    if (ui.menuItem("Reset", "R")) requests.resetCamera = true;
+    ImGui::Separator();
+    const std::vector<Camera>& cameras = session.document().moment().cameras;
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        const std::string label = fmt::format("{}##camera {}", cameras[i].name, i);
+        if (ui.menuItem(label.c_str(), nullptr, session.choices().sceneCamera == int(i))) {
+            session.useSceneCamera(int(i));
+        }
+    }
+    ImGui::EndMenu();
+}
+
+void drawTechniqueMenu(Ui& ui, Session& session) {
+    if (!ui.beginMenu("Technique")) return;
+    const std::vector<std::string> names = techniqueChoices();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const bool isReference = names[i] == referenceName;
+        const std::string key = isReference ? "0" : i < 9 ? fmt::format("{}", i + 1) : "";
+        if (ui.menuItem(names[i].c_str(), key.c_str(), session.choices().technique == names[i])) {
+            chooseTechnique(session, names[i]);
+        }
+    }
+    ImGui::EndMenu();
+}
+
+void drawViewMenu(Ui& ui, Session& session, Desk& desk) {
+    if (!ui.beginMenu("View")) return;
+    Choices& choices = session.choices();
+    if (ui.menuItem("Wipe between two", "C", choices.comparing)) {
+        choices.comparing = !choices.comparing;
+        session.changedCanvas();
+    }
+    const auto item = [&](const char* label, const char* key, Shown shown) {
+        if (!ui.menuItem(label, key, choices.shown == shown)) return;
+        choices.shown = shown;
+        session.changedCanvas();
+        if (shown == Shown::illuminance) session.fitIlluminance();
+    };
+    item("Picture", "P", Shown::picture);
+    item("Difference", "X", Shown::difference);
+    item("Amount of the difference", "Y", Shown::error);
+    item("Visibility", "V", Shown::visibility);
+    item("Illuminance", "I", Shown::illuminance);
+    ImGui::Separator();
+    for (const float scale : {0.25f, 0.5f, 0.75f, 1.0f, 2.0f}) {
+        const std::string label = fmt::format("Resolution {:.0f} %", 100 * scale);
+        if (ui.menuItem(label.c_str(), nullptr, choices.resolutionScale == scale))
+            choices.resolutionScale = scale;
+    }
+    ImGui::Separator();
+    if (ui.menuItem("Panel", "F1", desk.showsPanel)) desk.showsPanel = !desk.showsPanel;
+    ImGui::EndMenu();
+}
+
+}  // namespace
+
+void drawMenuBar(Ui& ui, Session& session, const Settings& settings, Desk& desk, Requests& requests) {
+    if (!ImGui::BeginMainMenuBar()) return;
+    drawFileMenu(ui, session, settings, desk, requests);
+    drawCameraMenu(ui, session, requests);
+    drawTechniqueMenu(ui, session);
+    drawViewMenu(ui, session, desk);
+    if (ui.beginMenu("Help")) {
+        if (ui.menuItem("Keys and mouse", "H")) desk.showsHelp = true;
+        ImGui::EndMenu();
+    }
+    const std::string said =
+        fmt::format("{}   |   {}   |   {}x{}", session.document().nameOrPath(), session.choices().technique,
+                    session.width_px(), session.height_px());
+    ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(said.c_str()).x - 12 * ui.scale());
+    ImGui::TextDisabled("%s", said.c_str());
+    ImGui::EndMainMenuBar();
+}
+
+}  // namespace penumbra::studio::viewer

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panels, top to bottom. Each shows what a session has and changes its choices; what takes longer is
+// requested.
+#pragma once
+
+#include "studio/viewer/export.h"
+#include "studio/viewer/gizmo.h"
+#include "studio/viewer/panels/ui.h"
+
+namespace penumbra::studio::viewer {
+
+/// What belongs to the window and not to the picture.
+struct Desk {
+    bool showsHelp = false;
+    bool showsWelcome = false;
+    bool showsPanel = true;
+    bool playing = false;
+    Gizmo::Mode gizmoMode = Gizmo::Mode::move;
+    std::string openPath;  ///< in the dialog
+    bool asksForPath = false;
+    std::string message;  ///< of the last thing done; shown for a while
+    bool messageIsError = false;
+    double messageUntil_s = 0;
+    Recorder::Plan recording{"penumbra-frames", 0, 47, 24};
+    std::size_t buffer = 0;  ///< of Session::inspected()
+    int bufferLayer = 0;
+    bool bufferStretched = true;
+    std::string presetName;
+};
+
+/// The library's techniques and the reference, in the order of the keys 1 to 9 and 0.
+std::vector<std::string> techniqueChoices();
+void chooseTechnique(Session& session, const std::string& name);
+void chooseOther(Session& session, const std::string& name);
+
+void drawMenuBar(Ui& ui, Session& session, const Settings& settings, Desk& desk, Requests& requests);
+void drawTechniquePanel(Ui& ui, Session& session, Settings& settings, Desk& desk);
+void drawLightsPanel(Ui& ui, Session& session, Desk& desk, Requests& requests);
+void drawComparePanel(Ui& ui, Session& session);
+void drawColorsPanel(Ui& ui, Session& session);
+void drawInsightPanel(Ui& ui, Session& session, Desk& desk, const std::vector<float>& frameTimes_ms);
+void drawAnimationPanel(Ui& ui, Session& session, Desk& desk, const Recorder& recorder, Requests& requests);
+void drawHelp(Ui& ui, Desk& desk);
+
+/// Of the frame: median, 95th and 99th percentile.
+struct Percentiles {
+    float p50 = 0, p95 = 0, p99 = 0;
+};
+Percentiles percentilesOf(std::vector<float> values);
+
+/// A texture of ours for Dear ImGui.
+ImTextureID imageId(const gl::Texture& texture);
+
+}  // namespace penumbra::studio::viewer

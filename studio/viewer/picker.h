@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pixel under the glass: where it is, what each technique and the truth say of it, and what it sees of the
+// light.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studio/viewer/canvas.h"
+
+namespace penumbra::studio::viewer {
+
+/// What is known of the picked pixel; grows by a technique a frame.
+struct Pick {
+    int x = 0, y = 0;  ///< from the upper left
+    bool hasSurface = false;
+    glm::vec3 posWorld{0}, normalWorld{0, 1, 0};
+    float illuminance_lux = 0;  ///< as side A has it
+    struct Answer {
+        std::string technique;
+        float visibility = 0;
+    };
+    std::vector<Answer> answers;  ///< for the light in question
+    std::optional<float> truth;   ///< of `truthSamples` rays
+    static constexpr int truthSamples = 4096;
+};
+
+class Picker {
+  public:
+    Picker(Device& device, gl::ShaderLibrary& shaders);
+
+    void pick(int x, int y) {
+        wanted_ = Pick{.x = x, .y = y};
+        located_ = false;
+    }
+    void clear() { wanted_.reset(); }
+    /// Everything is asked again, at the same pixel.
+    void restart();
+
+    const std::optional<Pick>& result() const { return wanted_; }
+    bool busy() const;
+
+    /// The next step: the position, the light's view, a technique, or the truth once `traced` is ready.
+    /// `frame` shows the view that the pixel is of.
+    void step(const FrameRenderer& frame, const Side& side, const Document& document, std::size_t light,
+              TechniqueBank& techniques, const ReferenceScene* traced);
+
+    /// What the point sees looking at the light, the light in its middle; valid once the position is known.
+    const gl::Texture& lightView() const { return lightView_.texture(); }
+
+  private:
+    void locate(const FrameRenderer& frame, const Side& side);
+    void lookAtLight(const Document& document, const Light& light);
+    void ask(const FrameRenderer& frame, const Light& light, const std::string& technique,
+             TechniqueBank& techniques);
+    void trace(const FrameRenderer& frame, const Light& light, const ReferenceScene& scene);
+
+    Device& device_;
+    FrameRenderer pointFrame_;
+    Canvas lightView_;
+    std::optional<Pick> wanted_;
+    bool located_ = false;
+};
+
+}  // namespace penumbra::studio::viewer

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything the viewer does, without its window: a scene, a camera, two sides, the truth, and what they say
+// of each other. Does work only where something has changed.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "studio/metrics/visibility_metrics.h"
+#include "studio/viewer/camera_control.h"
+#include "studio/viewer/canvas.h"
+#include "studio/viewer/picker.h"
+#include "studio/viewer/sides.h"
+#include "studio/workbench/workbench.h"
+
+namespace penumbra::studio::viewer {
+
+/// What the user has chosen. Whoever changes it says so with changedView() or changedLighting().
+struct Choices {
+    std::string technique{defaultTechnique()};            ///< of side A
+    std::map<std::string, std::string> techniqueOfLight;  ///< where a light has its own, by the light's name
+    std::string other{referenceName};                     ///< side B: one technique for all lights
+    bool comparing = false;                               ///< both sides are shown
+    bool flipped = false;                                 ///< side B alone is shown
+    float wipe = 0.5f;                                    ///< where side B begins, share of the width
+    bool referenceRuns = true;
+    int referenceSamples = 1024;
+    std::size_t light = 0;  ///< the one in question: selected, judged, inspected
+    Shown shown = Shown::picture;
+    float differenceRange = 0.2f;  ///< visibility at which the colours of errors end
+    float largestLux = 0;          ///< end of the illuminance colours; 0: what the picture needed when fitted
+    bool logarithmic = false, isolines = true;
+    float resolutionScale = 1;
+    int sceneCamera = 0;  ///< of the moment's; -1: the free one
+};
+
+class Session {
+  public:
+    /// `shaderSourceDirectory` as in DeviceOptions. An OpenGL context is current as long as this lives.
+    explicit Session(const std::filesystem::path& shaderSourceDirectory);
+
+    Choices& choices() { return choices_; }
+    const Choices& choices() const { return choices_; }
+
+    /// Throws as Document does, and then leaves everything as it is.
+    void open(const std::string& nameOrPath, const OpenOptions& options = {});
+    bool hasDocument() const { return document_ != nullptr; }
+    Document& document() { return *document_; }
+    const Document& document() const { return *document_; }
+
+    TechniqueBank& techniques() { return techniques_; }
+    FrameRenderer& frame() { return frame_; }
+    Device& device() { return device_; }
+    const Device& device() const { return device_; }
+    const Canvas& canvas() const { return canvas_; }
+    const Side& side(std::size_t index) const { return sides_.side(index); }
+    ProgressiveReference& reference() { return reference_; }
+    Picker& picker() { return picker_; }
+    const Picker& picker() const { return picker_; }
+
+    Camera camera() const;
+    CameraView cameraView() const;
+    /// The camera that hands move; begins where the scene's camera in use stands.
+    CameraControl& freeCamera();
+    void useSceneCamera(int index);
+    const CameraControl& cameraControl() const { return control_; }
+
+    void setTime(double time_s);
+    void editLights(std::vector<Light> lights);
+    void revertLights();
+
+    /// Camera, time, lights or size are others now: both sides and the truth begin anew.
+    void changedView();
+    /// Techniques or their parameters are others now.
+    void changedLighting();
+    /// Colours are others now.
+    void changedCanvas() { canvasStale_ = true; }
+
+    /// Brings everything up to date at this size; cheap where nothing has changed. Returns whether the canvas
+    /// was made anew. What a technique or the device throws becomes problem().
+    bool update(int width_px, int height_px);
+
+    int width_px() const { return width_px_; }
+    int height_px() const { return height_px_; }
+    /// Milliseconds that the last update took that had something to do.
+    double milliseconds() const { return milliseconds_; }
+    /// Something is still to come without the user's doing: more rays, more picks.
+    bool busy() const;
+
+    /// What is shown is what was asked for: where that is the truth, all of its rays are traced.
+    bool complete() const;
+
+    /// Technique of a light on side A.
+    std::string techniqueOf(const Light& light) const;
+    /// Errors of a side against the truth so far; nothing without one, or for the truth itself.
+    const std::optional<VisibilityMetrics>& metrics(std::size_t side) const { return metrics_[side]; }
+    std::shared_ptr<const ProgressiveReference::Level> truth() const { return truth_; }
+    /// Range of the colours shown, and of what.
+    CanvasOptions canvasOptions() const;
+    /// The colours of illuminance shall span what the next picture needs.
+    void fitIlluminance() {
+        largestIlluminance_lux_ = 0;
+        changedCanvas();
+    }
+
+    /// Why the picture is not what was asked for, or empty.
+    const std::string& problem() const { return problem_; }
+    /// Reads all shaders anew (see DeviceOptions::shaderSourceDirectory); those that do not compile keep
+    /// their last good version, and shaderProblem() says why.
+    void reloadShaders();
+    const std::string& shaderProblem() const { return shaderProblem_; }
+
+    /// The buffers that the technique of the light in question left, and the frame's own.
+    std::vector<InspectedTexture> inspected();
+    /// Makes a picture of one of them, for inspection().
+    void inspect(const InspectedTexture& texture, int layer, bool stretched = true);
+    const Canvas& inspection() const { return inspection_; }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    bool wantsTruth() const;
+    bool showsOther() const;
+    bool showsTruth(std::size_t side) const;
+    void render(int width_px, int height_px);
+    void lightSides();
+    void startReference();
+    void takeTruth();
+    void judge();
+    void compose();
+
+    Device device_;
+    gl::ShaderLibrary shaders_;
+    FrameRenderer frame_;
+    TechniqueBank techniques_;
+    Sides sides_;
+    Canvas canvas_, inspection_;
+    Picker picker_;
+    std::unique_ptr<Document> document_;
+    ProgressiveReference reference_;
+
+    Choices choices_;
+    CameraControl control_;
+    int width_px_ = 0, height_px_ = 0;
+    bool viewStale_ = true, canvasStale_ = true;
+    std::array<bool, 2> sideStale_{true, true};
+    bool referenceStale_ = true;
+    Clock::time_point changedAt_;
+
+    std::shared_ptr<const CasterCopies> casters_;
+    std::uint64_t castersRevision_ = 0;
+    std::shared_ptr<const ProgressiveReference::Level> truth_;
+    std::array<std::optional<VisibilityMetrics>, 2> metrics_;
+    float largestIlluminance_lux_ = 0;
+    double milliseconds_ = 0;
+    std::string problem_, shaderProblem_;
+};
+
+}  // namespace penumbra::studio::viewer

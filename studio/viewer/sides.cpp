@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/viewer/sides.h"
+
+#include <algorithm>
+
+#include "studio/workbench/reference_inputs.h"
+
+namespace penumbra::studio::viewer {
+namespace {
+
+void copy(const gl::Texture& from, gl::Texture& to, std::string_view label) {
+    if (to.width_px() != from.width_px() || to.height_px() != from.height_px() || to.name() == 0) {
+        to = gl::Texture({.width_px = from.width_px(),
+                          .height_px = from.height_px(),
+                          .format = from.format(),
+                          .label = label});
+    }
+    glCopyImageSubData(from.name(), GL_TEXTURE_2D, 0, 0, 0, 0, to.name(), GL_TEXTURE_2D, 0, 0, 0, 0,
+                       from.width_px(), from.height_px(), 1);
+}
+
+}  // namespace
+
+void Sides::draw(const Document& document, const Camera& camera, int width_px, int height_px) {
+    frame_.draw(document.gpuScene(), document.moment(), camera, width_px, height_px);
+}
+
+void Sides::fit(Side& side, const std::vector<Light>& lights) {
+    const View& view = frame_.gbuffer().view();
+    const auto fits = [&](const VisibilityBuffer& buffer, const Light& light) {
+        return buffer.width_px() == view.width_px && buffer.height_px() == view.height_px &&
+               buffer.colored() == (light.texture >= 0);
+    };
+    if (std::ranges::equal(side.visibilities, lights, fits)) return;
+    side.visibilities.clear();
+    for (const Light& light : lights) {
+        const VisibilityBuffer& made = side.visibilities.emplace_back(frame_.makeVisibility(light));
+        if (made.colored()) continue;
+        // One number for whoever samples three.
+        glTextureParameteri(made.texture(), GL_TEXTURE_SWIZZLE_G, GL_RED);
+        glTextureParameteri(made.texture(), GL_TEXTURE_SWIZZLE_B, GL_RED);
+    }
+}
+
+void Sides::light(std::size_t index, const Document& document, const std::vector<std::string>& names,
+                  TechniqueBank& techniques, const ProgressiveReference::Level* truth, std::size_t last) {
+    const std::vector<Light>& lights = document.moment().lights;
+    Side& side = sides_[index];
+    fit(side, lights);
+    side.statistics.assign(lights.size(), {});
+
+    const auto shadow = [&](std::size_t i) {
+        VisibilityBuffer& visibility = side.visibilities[i];
+        side.statistics[i] = {lights[i].name, names[i], {}};
+        if (names[i] != referenceName) {
+            Technique& technique = techniques.get(names[i]);
+            technique.render(frame_.shadowInputs(lights[i]), visibility);
+            side.statistics[i].statistics = technique.statistics();
+        } else if (truth != nullptr) {
+            writeVisibility(truth->lights[i].visibility, visibility);
+        } else {
+            constexpr std::array<float, 4> all = {1, 1, 1, 1};
+            glClearTexImage(visibility.texture(), 0, GL_RGBA, GL_FLOAT, all.data());
+        }
+    };
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (i != last) shadow(i);
+    }
+    if (last < lights.size()) shadow(last);
+
+    // In the scene's order, as the command does: floating-point sums depend on it.
+    frame_.beginLighting();
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        frame_.addLight(lights[i], side.visibilities[i]);
+        if (i == last) copy(frame_.reach(), side.reach, "viewer/reach");
+    }
+    copy(frame_.toneMap(), side.display, "viewer/display");
+    copy(frame_.radiance(), side.radiance, "viewer/radiance");
+    copy(frame_.illuminance(), side.illuminance, "viewer/illuminance");
+}
+
+}  // namespace penumbra::studio::viewer

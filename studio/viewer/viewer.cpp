@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/viewer/viewer.h"
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "studio/errors.h"
+
+#include <GLFW/glfw3.h>
+
+namespace penumbra::studio::viewer {
+namespace {
+
+constexpr std::size_t frameHistory = 240;
+constexpr float panelWidth = 330;
+constexpr double messageTime_s = 6;
+
+/// Without an argument: balls, boxes and tori under a large light.
+constexpr const char* welcomeScene = "primitives";
+/// On a software rasteriser many shadow maps are slow; this one answers as exactly with none.
+constexpr const char* softwareTechnique = "exact";
+
+void applySettings(const Settings& settings, Session& session) {
+    Choices& choices = session.choices();
+    const bool software = session.device().isSoftware();
+    const std::vector<std::string> names = techniqueChoices();
+    const auto known = [&](const std::string& name) { return std::ranges::count(names, name) != 0; };
+    if (software && known(softwareTechnique)) choices.technique = softwareTechnique;
+    if (known(settings.technique)) choices.technique = settings.technique;
+    if (known(settings.other)) choices.other = settings.other;
+    choices.resolutionScale = settings.resolutionScale > 0 ? settings.resolutionScale
+                              : software                   ? 0.5f
+                                                           : 1.0f;
+    choices.referenceSamples = settings.referenceSamples;
+    choices.referenceRuns = settings.referenceRuns;
+    for (const auto& [name, values] : settings.parameters) {
+        if (known(name) && name != referenceName) session.techniques().set(name, values);
+    }
+}
+
+}  // namespace
+
+Viewer::Viewer(ViewerOptions options)
+    : options_(std::move(options)),
+      settings_(loadSettings(options_.settings)),
+      window_({.width = settings_.width, .height = settings_.height}),
+      session_(options_.shaderSourceDirectory),
+      ui_(window_.contentScale()),
+      shaderWatch_(options_.shaderSourceDirectory) {
+    applySettings(settings_, session_);
+    desk_.showsWelcome = options_.scene.empty();
+    session_.open(options_.scene.empty() ? welcomeScene : options_.scene, options_.open);
+    if (!options_.scene.empty()) settings_.addRecent(options_.scene);
+    window_.setTitle("Penumbra - " + session_.document().nameOrPath());
+}
+
+Viewer::~Viewer() {
+    if (options_.keepsSettings) keepSettings();
+}
+
+void Viewer::keepSettings() {
+    const Choices& choices = session_.choices();
+    settings_.technique = choices.technique;
+    settings_.other = choices.other;
+    settings_.resolutionScale = choices.resolutionScale;
+    settings_.referenceSamples = choices.referenceSamples;
+    settings_.referenceRuns = choices.referenceRuns;
+    for (const auto& [name, values] : session_.techniques().allChanges()) {
+        settings_.parameters.erase(name);
+        if (!values.empty()) settings_.parameters[name] = values;
+    }
+    if (window_.width_px() > 0) window_.size(settings_.width, settings_.height);
+    try {
+        saveSettings(settings_, options_.settings);
+    } catch (const std::exception& error) {
+        spdlog::warn("the settings are not kept: {}", error.what());
+    }
+}
+
+void Viewer::say(const std::string& message, bool isError) {
+    desk_.message = message;
+    desk_.messageIsError = isError;
+    desk_.messageUntil_s = isError ? 1e30 : glfwGetTime() + messageTime_s;
+    if (isError) spdlog::error("{}", message);
+}
+
+template <typename Action>
+void Viewer::attempt(const Action& action) {
+    try {
+        action();
+    } catch (const std::exception& error) {
+        say(error.what(), true);
+    }
+}
+
+bool Viewer::frame(bool wait) {
+    // While only rays are traced, frames shall not take the processors away from them.
+    const bool active = hand_.busy() || desk_.playing || recorder_.active() || session_.picker().busy();
+    window_.pollEvents(!wait || active ? 0 : session_.busy() ? 0.1 : 0.25);
+    if (window_.closeRequested()) return false;
+    if (window_.width_px() == 0 || window_.height_px() == 0) return true;  // minimised
+
+    takeFiles();
+    window_.beginFrame();
+    ui_.begin();
+    takeKeys();
+    advanceTime();
+    if (shaderWatch_.changed()) session_.reloadShaders();
+    Requests requests = std::exchange(keyRequests_, {});
+    drawPanels(requests);
+    hand_.update(place_, window_, session_, desk_, ui_.scale());
+    carryOut(requests);
+    updatePicture();
+    record();
+    drawCanvas();
+    drawOverlay();
+    window_.draw();
+    window_.show();
+    return true;
+}
+
+void Viewer::open(const std::string& nameOrPath) {
+    attempt([&] {
+        session_.open(nameOrPath);
+        settings_.addRecent(nameOrPath);
+        window_.setTitle("Penumbra - " + nameOrPath);
+        desk_.playing = false;
+        const std::vector<std::string>& warnings = session_.document().scene().warnings;
+        say(warnings.empty() ? "opened " + nameOrPath : fmt::format("{}", fmt::join(warnings, "\n")));
+    });
+}
+
+void Viewer::takeFiles() {
+    const std::vector<std::filesystem::path> files = window_.takeDroppedFiles();
+    if (!files.empty()) open(files.front().string());
+}
+
+void Viewer::advanceTime() {
+    const double now_s = glfwGetTime();
+    const double elapsed_s = now_s - std::exchange(playedAt_s_, now_s);
+    if (!recorder_.active()) recordedTime_s_.reset();
+    if (recorder_.active()) {
+        if (recordedTime_s_ != recorder_.time_s()) session_.setTime(recorder_.time_s());
+        recordedTime_s_ = recorder_.time_s();
+        return;
+    }
+    const double duration_s = session_.document().duration_s();
+    if (!desk_.playing || duration_s <= 0) return;
+    session_.setTime(std::fmod(session_.document().time_s() + std::min(elapsed_s, 0.25), duration_s));
+}
+
+void Viewer::drawPanels(Requests& requests) {
+    drawMenuBar(ui_, session_, settings_, desk_, requests);
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float top = ImGui::GetFrameHeight();
+    const float width = desk_.showsPanel ? std::min(panelWidth * ui_.scale(), 0.5f * display.x) : 0;
+    place_ = {{width, top}, {std::max(1.0f, display.x - width), std::max(1.0f, display.y - top)}};
+    if (desk_.showsPanel) {
+        ImGui::SetNextWindowPos({0, top});
+        ImGui::SetNextWindowSize({width, place_.size.y});
+        ImGui::Begin("panel", nullptr,
+                     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                         ImGuiWindowFlags_NoBringToFrontOnFocus);
+        drawAnimationPanel(ui_, session_, desk_, recorder_, requests);
+        drawTechniquePanel(ui_, session_, settings_, desk_);
+        drawColorsPanel(ui_, session_);
+        drawComparePanel(ui_, session_);
+        drawLightsPanel(ui_, session_, desk_, requests);
+        drawInsightPanel(ui_, session_, desk_, frameTimes_ms_);
+        ImGui::End();
+    }
+    drawHelp(ui_, desk_);
+    drawOpenDialog(requests);
+}
+
+void Viewer::drawOpenDialog(Requests& requests) {
+    if (std::exchange(desk_.asksForPath, false)) ImGui::OpenPopup("Open a scene");
+    if (!ImGui::BeginPopupModal("Open a scene", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+    ui_.note("A glTF file (.gltf, .glb) or the name of a built-in scene. Files can be dropped, too.");
+    ImGui::SetNextItemWidth(420 * ui_.scale());
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    const bool entered = ImGui::InputText("##path", &desk_.openPath, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (ui_.button("Open") || entered) {
+        requests.open = desk_.openPath;
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::SameLine();
+    if (ui_.button("Cancel")) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
+std::filesystem::path Viewer::freshPictureName() const {
+    const std::string stem = std::filesystem::path(session_.document().nameOrPath()).stem().string();
+    for (int number = 1;; ++number) {
+        std::filesystem::path file = options_.pictures / fmt::format("{}.{:03}.png", stem, number);
+        if (!std::filesystem::exists(file)) return file;
+    }
+}
+
+void Viewer::carryOut(const Requests& requests) {
+    if (requests.quit) window_.requestClose();
+    if (requests.open) open(*requests.open);
+    if (requests.frameAll) {
+        session_.freeCamera().frame(session_.document().bounds(), place_.size.x / place_.size.y);
+        session_.changedView();
+    }
+    if (requests.resetCamera) session_.useSceneCamera(0);
+    if (requests.reloadShaders) session_.reloadShaders();
+    if (requests.saveLights) {
+        attempt([&] {
+            const std::string file = session_.document().saveLights().string();
+            const bool found = !session_.document().sidecar().empty();
+            say(fmt::format("lights saved to {}{}", file,
+                            found ? "" : "; --lights " + file + " shows them again"));
+        });
+    }
+    if (requests.copyCommand) {
+        attempt([&] {
+            window_.setClipboard(renderCommand(session_, options_.data));
+            say("copied: the command for this picture");
+        });
+    }
+    if (requests.savePicture || requests.saveCanvas) {
+        attempt([&] {
+            const std::filesystem::path file = freshPictureName();
+            const std::string command = renderCommand(session_, options_.data);
+            if (requests.saveCanvas) {
+                saveCanvas(session_, file, command);
+            } else {
+                savePicture(session_, file, command);
+                savePicture(session_, std::filesystem::path(file).replace_extension(".exr"), command);
+            }
+            say("saved " + file.string());
+        });
+    }
+    if (requests.record) {
+        attempt([&] {
+            recorder_.start(desk_.recording);
+            desk_.playing = false;
+        });
+    }
+    if (requests.stopRecording) recorder_.stop();
+}
+
+void Viewer::updatePicture() {
+    // While hands move and frames are late, the resolution gives way; at rest it is what was chosen.
+    const bool moving = hand_.busy() || desk_.playing;
+    const double now_s = glfwGetTime();
+    if (moving) movedAt_s_ = now_s;
+    const float before = slowDown_;
+    if (!moving && now_s - movedAt_s_ > 0.25) slowDown_ = 1;
+    const float scale = session_.choices().resolutionScale * window_.pixelsPerCoordinate() * slowDown_;
+    const bool drawn =
+        session_.update(int(std::lround(place_.size.x * scale)), int(std::lround(place_.size.y * scale)));
+    constexpr double late_ms = 120, smallest = 0.3;
+    if (drawn) {
+        frameTimes_ms_.push_back(float(session_.milliseconds()));
+        if (frameTimes_ms_.size() > frameHistory) frameTimes_ms_.erase(frameTimes_ms_.begin());
+    }
+    if (moving && drawn && before == slowDown_ && session_.milliseconds() > late_ms && slowDown_ > smallest) {
+        slowDown_ *= 0.7f;
+    }
+}
+
+void Viewer::record() {
+    if (!recorder_.active() || !session_.complete()) return;
+    attempt([&] {
+        recorder_.write(session_, renderCommand(session_, options_.data));
+        if (!recorder_.active()) say("recorded to " + recorder_.plan().folder.string());
+    });
+}
+
+}  // namespace penumbra::studio::viewer

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// `penumbra view`: a window, a session, panels.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "studio/viewer/hand.h"
+#include "studio/viewer/settings.h"
+#include "studio/viewer/shader_watch.h"
+
+namespace penumbra::studio::viewer {
+
+struct ViewerOptions {
+    std::string scene;  ///< as openScene takes it; empty: one that shows what this is about
+    OpenOptions open;
+    std::filesystem::path shaderSourceDirectory;  ///< read shaders from this tree, and again when they change
+    std::filesystem::path settings = settingsFile();
+    bool keepsSettings = true;  ///< writes them when it ends
+    std::filesystem::path data = dataFolder();
+    std::filesystem::path pictures = std::filesystem::current_path();  ///< where pictures are saved
+};
+
+class Viewer {
+  public:
+    /// Throws NoOpenGLError without a display or OpenGL 4.5, InputError for a scene that cannot be opened.
+    explicit Viewer(ViewerOptions options);
+    ~Viewer();
+    Viewer(const Viewer&) = delete;
+    Viewer& operator=(const Viewer&) = delete;
+
+    /// Takes events in, updates what they changed and shows it. `wait`: for the next event, where there is
+    /// nothing to do. False once the window shall close.
+    bool frame(bool wait = true);
+
+    Session& session() { return session_; }
+    Window& window() { return window_; }
+    const Desk& desk() const { return desk_; }
+    Desk& desk() { return desk_; }
+    const Settings& settings() const { return settings_; }
+    const std::vector<PlacedWidget>& widgets() const { return ui_.placed(); }
+    const CanvasPlace& canvasPlace() const { return place_; }
+    const Recorder& recorder() const { return recorder_; }
+    /// The window as it was drawn last.
+    Image screenshot() { return window_.read(); }
+
+  private:
+    void takeFiles();
+    void takeKeys();
+    void chooseByKey(int key, int mods);
+    void nextLight();
+    void changeSelectedLight(int key);
+    void stepTime(int frames);
+    void advanceTime();
+    void drawPanels(Requests& requests);
+    void drawOpenDialog(Requests& requests);
+    void carryOut(const Requests& requests);
+    void open(const std::string& nameOrPath);
+    void updatePicture();
+    void drawCanvas();
+    void drawOverlay();
+    void drawLegend();
+    void record();
+    void keepSettings();
+    void say(const std::string& message, bool isError = false);
+    /// Runs what may fail for reasons of the user's; the window says why.
+    template <typename Action>
+    void attempt(const Action& action);
+    std::filesystem::path freshPictureName() const;
+
+    ViewerOptions options_;
+    Settings settings_;
+    Window window_;
+    Session session_;
+    Ui ui_;
+    Desk desk_;
+    Hand hand_;
+    Recorder recorder_;
+    std::optional<double> recordedTime_s_;  ///< that is being shown for the recorder
+    ShaderWatch shaderWatch_;
+    Requests keyRequests_;
+    CanvasPlace place_;
+    std::vector<float> frameTimes_ms_;  ///< of frames that had something to draw
+    double playedAt_s_ = 0, movedAt_s_ = -1;
+    float slowDown_ = 1;  ///< of the resolution while hands move and frames are late
+};
+
+}  // namespace penumbra::studio::viewer
