@@ -104,6 +104,9 @@ struct AlphaMask {
         0;                ///< GL_TEXTURE_2D, borrowed, sampled with its own filter and wrapping; 0: no mask
     float factor = 1;     ///< multiplies the texture's alpha
     float cutoff = 0.5f;  ///< alpha >= cutoff blocks
+    /// Of the texels: another number whenever they, or the texture that has this name, may be others, so that
+    /// what was made from them can be kept meanwhile. 0: unknown, and nothing is kept.
+    std::uint64_t revision = 0;
 };
 
 /// An object in the scene. Both sides of every triangle block light.

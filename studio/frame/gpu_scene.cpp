@@ -99,8 +99,11 @@ void GpuScene::update(const SceneMoment& moment) {
                       .casts = instance.casts,
                       .receives = instance.receives};
         if (material.alpha == Material::Alpha::mask && material.baseColorTexture >= 0) {
-            caster.alphaMask = {texture(material.baseColorTexture), material.baseColor.a,
-                                material.alphaCutoff};
+            // Textures live as long as the scene's meshes, whose ids are never used again.
+            caster.alphaMask = {.texture = texture(material.baseColorTexture),
+                                .factor = material.baseColor.a,
+                                .cutoff = material.alphaCutoff,
+                                .revision = 1 + shared_.front().mesh.id()};
         } else if (material.alpha == Material::Alpha::mask && material.baseColor.a < material.alphaCutoff) {
             caster.casts = false;  // all of it is a hole
         }

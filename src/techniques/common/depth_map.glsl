@@ -12,22 +12,27 @@ struct MapPoint {
     float texel_m;   // a texel's size at the point's depth
 };
 
-MapPoint mapPoint(int camera, vec3 posLight) {
-    LightCameraConstants c = lightCameras[camera];
+// From a position in the camera's own space.
+MapPoint mapPointOfFace(LightCameraConstants c, vec3 posFace) {
     MapPoint point;
-    point.posFace = (c.faceFromLight * vec4(posLight, 1.0)).xyz;
+    point.posFace = posFace;
     bool orthographic = c.depth.z == 1.0;
     vec2 place = orthographic ? point.posFace.xy : point.posFace.xy / point.posFace.z;
     point.uv = (place - c.window.xy) * c.window.zw;
     point.texel_m = c.depth.w * (orthographic ? 1.0 : point.posFace.z);
     return point;
 }
+MapPoint mapPoint(int camera, vec3 posLight) {
+    LightCameraConstants c = lightCameras[camera];
+    return mapPointOfFace(c, (c.faceFromLight * vec4(posLight, 1.0)).xyz);
+}
 
 // Whether the point lies in front of the camera and in its window.
-bool isInWindow(int camera, MapPoint point) {
-    return (lightCameras[camera].depth.z == 1.0 || point.posFace.z > 0.0) && all(greaterThanEqual(point.uv, vec2(0.0))) &&
+bool isInWindow(LightCameraConstants c, MapPoint point) {
+    return (c.depth.z == 1.0 || point.posFace.z > 0.0) && all(greaterThanEqual(point.uv, vec2(0.0))) &&
            all(lessThan(point.uv, vec2(1.0)));
 }
+bool isInWindow(int camera, MapPoint point) { return isInWindow(lightCameras[camera], point); }
 
 // Linear depth along the camera's axis, in metres, from the reversed depth that is stored; no caster is infinitely far.
 float depthFace_m(int camera, float stored) {

@@ -37,6 +37,14 @@ vec3 tangentLight(ivec2 pixel, float depth, vec3 pos, ivec2 axis) {
     return useAfter ? positionLight(after, depthAfter) - pos : pos - positionLight(before, depthBefore);
 }
 
+// Where an includer knows that there are normals, software rasterizers, which run both sides of a branch, are spared the
+// other one.
+#ifdef WITH_NORMALS
+const bool hasNormals = true;
+#else
+bool hasNormals = view.size_px.z == 1;
+#endif
+
 // False where the pixel shows no surface, or one that receives no shadow: its visibility is 1.
 bool isReceiver(ivec2 pixel) {
     return !isBackground(texelFetch(viewDepth, pixel, 0).r) &&
@@ -49,7 +57,7 @@ bool loadReceiver(ivec2 pixel, out Receiver receiver) {
     float depth = texelFetch(viewDepth, pixel, 0).r;
     receiver.posLight = positionLight(pixel, depth);
     receiver.normalLight =
-        view.size_px.z == 1
+        hasNormals
             ? mat3(view.lightFromWorld) * texelFetch(viewNormals, pixel, 0).rgb
             : cross(tangentLight(pixel, depth, receiver.posLight, ivec2(1, 0)),
                     tangentLight(pixel, depth, receiver.posLight, ivec2(0, 1)));

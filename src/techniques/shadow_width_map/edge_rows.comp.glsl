@@ -5,75 +5,88 @@
 // never exceeds the column that it begins at, so that reading backwards, each is read before it is overwritten.
 layout(local_size_x = 16) in;
 
-#include "src/techniques/shadow_width_map/nearest_edge.glsl"
+#define DEPTH_MAP_UNIT 3
+#define DEPTH_MAP_BLOCK 0
+#include "src/techniques/common/depth_map.glsl"
+#include "src/techniques/shadow_width_map/edge_cells.glsl"
+#include "src/techniques/shadow_width_map/spread.glsl"
 
-layout(binding = 0) uniform usampler2DArray columns;
-layout(binding = 0, r32ui) uniform uimage2DArray edges;
-layout(binding = 1, r32f) uniform writeonly image2DArray widths_px;
-layout(location = 0) uniform int mapCount;
+layout(binding = 0) uniform usampler2DArray cellEdges;
+layout(binding = 1) uniform sampler2DArray columns_px;
+layout(binding = 0, rgba32ui) uniform uimage2DArray nearestEdges;
+layout(binding = 1, rg32f) uniform image2DArray widths;
+layout(location = 0) uniform bool withInnerEdges;
+layout(location = 1) uniform int cell_px;
+layout(location = 2) uniform int mapCount;
+layout(location = 3) uniform float halfExtent;  // the light's largest
 
 struct Parabola {
-    int column, begin;  // its edge's column; the first column that it is lowest in
-    int height;         // squared distance to the edge, in the edge's column
-    uint inColumn;
+    vec2 edge_px;
+    float height;  // squared distance to the edge, in the edge's column
+    int begin;     // the first cell that it is lowest in
 };
 
-uint inColumnAt(ivec3 texel) {
-    uvec2 both = texelFetch(columns, ivec3(texel.xy, texel.z % mapCount), 0).rg;
-    return texel.z < mapCount ? both.x : both.y;
+uvec4 pack(Parabola p) { return uvec4(floatBitsToUint(vec3(p.edge_px, p.height)), uint(p.begin)); }
+Parabola unpack(uvec4 entry) {
+    vec3 p = uintBitsToFloat(entry.xyz);
+    return Parabola(p.xy, p.z, int(entry.w));
 }
 
-Parabola parabolaAt(ivec3 texel, int column, int begin) {
-    Parabola p;
-    p.column = column;
-    p.begin = begin;
-    p.inColumn = inColumnAt(ivec3(column, texel.yz));
-    int distance_px = rowInColumn(p.inColumn) - texel.y;
-    p.height = distance_px * distance_px;
-    return p;
+float centerOf(int cell) { return (float(cell) + 0.5) * float(cell_px); }
+float valueAt(Parabola p, int cell) {
+    float across = centerOf(cell) - p.edge_px.x;
+    return across * across + p.height;
 }
 
-int valueAt(Parabola p, int column) { return (column - p.column) * (column - p.column) + p.height; }
-
-void main() {
-    int size_px = imageSize(edges).x;
-    ivec3 texel = ivec3(0, gl_GlobalInvocationID.xy);
-    if (texel.y >= size_px) return;
-
+// The nearest edge of each cell in a row, of one kind.
+void sweepRow(ivec3 cell, int cells) {
     int top = -1;
-    Parabola p = Parabola(0, 0, 0, 0u);
-    for (int column = 0; column < size_px; ++column) {
-        if (!isEdgeInColumn(inColumnAt(ivec3(column, texel.yz)))) continue;
-        Parabola next = parabolaAt(texel, column, 0);
+    Parabola p = Parabola(vec2(0.0), 0.0, 0);
+    for (cell.x = 0; cell.x < cells; ++cell.x) {
+        float row_px = texelFetch(columns_px, cell, 0).r;
+        if (row_px < 0.0) continue;
+        ivec2 home = ivec2(cell.x, int(row_px) / cell_px);
+        Parabola next;
+        next.edge_px = vec2(placeInCell(texelFetch(cellEdges, ivec3(home, cell.z), 0), home, cell_px).x, row_px);
+        next.height = (row_px - centerOf(cell.y)) * (row_px - centerOf(cell.y));
+        next.begin = 0;
         while (top >= 0 && valueAt(p, p.begin) > valueAt(next, p.begin)) {
-            if (--top < 0) break;
-            uint entry = imageLoad(edges, ivec3(top, texel.yz)).r;
-            p = parabolaAt(texel, int(entry & 0xffffu), int(entry >> 16));
+            if (--top >= 0) p = unpack(imageLoad(nearestEdges, ivec3(top, cell.yz)));
         }
         if (top >= 0) {
             // Where `next` gets lower; not before p.begin, since it is not lower there.
-            int across = column * column - p.column * p.column + next.height - p.height;
-            next.begin = 1 + across / (2 * (column - p.column));
-            if (next.begin >= size_px) continue;
+            float dx = next.edge_px.x - p.edge_px.x;
+            float across = 0.5 * (next.edge_px.x + p.edge_px.x + (next.height - p.height) / dx);
+            next.begin = max(p.begin, int(min(floor(across / float(cell_px) - 0.5), float(cells)))) + 1;
+            if (next.begin >= cells) continue;
         }
-        imageStore(edges, ivec3(++top, texel.yz), uvec4(uint(next.column) | uint(next.begin) << 16));
+        imageStore(nearestEdges, ivec3(++top, cell.yz), pack(next));
         p = next;
     }
 
-    for (int column = size_px - 1; column >= 0; --column) {
-        texel.x = column;
-        uint edge = 0u;
-        float width_px = float(2 * size_px);
+    int map = cell.z % mapCount;
+    float steepest = widestPerExtent(map);
+    for (cell.x = cells - 1; cell.x >= 0; --cell.x) {
+        uvec4 edge = uvec4(0u);
+        vec2 width = vec2(2.0 * float(cells * cell_px), noPenumbra);
         if (top >= 0) {
-            edge = packEdge(p.column, p.inColumn);
-            vec2 place_px = vec2(texel.xy) + 0.5;
-            width_px = distance(middleOf(edge, nearestSide(edge, place_px)), place_px);
-            if (column == p.begin && --top >= 0) {
-                uint entry = imageLoad(edges, ivec3(top, texel.yz)).r;
-                p = parabolaAt(texel, int(entry & 0xffffu), int(entry >> 16));
-            }
+            edge = texelFetch(cellEdges, ivec3(ivec2(p.edge_px) / cell_px, cell.z), 0);
+            vec2 center_px = (vec2(cell.xy) + 0.5) * float(cell_px);
+            width.x = distance(center_px, nearestOnEdge(edge, center_px, float(cell_px)));
+            width.y = penumbraBegins(map, storedAtEdge(edge), width.x - 1.5 * float(cell_px), halfExtent * steepest);
+            if (cell.x == p.begin && --top >= 0) p = unpack(imageLoad(nearestEdges, ivec3(top, cell.yz)));
         }
-        imageStore(edges, texel, uvec4(edge));
-        imageStore(widths_px, texel, vec4(width_px));
+        imageStore(nearestEdges, cell, edge);
+        // In the outlines' layer for both kinds.
+        if (cell.z < mapCount && withInnerEdges) width.y = max(width.y, imageLoad(widths, cell + ivec3(0, 0, mapCount)).y);
+        imageStore(widths, cell, width.xyxy);
     }
+}
+
+void main() {
+    int cells = imageSize(nearestEdges).x;
+    ivec3 cell = ivec3(0, gl_GlobalInvocationID.xy);
+    if (cell.y >= cells) return;
+    if (withInnerEdges) sweepRow(cell + ivec3(0, 0, mapCount), cells);
+    sweepRow(cell, cells);
 }

@@ -13,10 +13,9 @@ struct Footprint {
 };
 
 Footprint footprintOf(Receiving r) {
-    vec2 slope = r.isOrthographic ? vec2(0.0) : r.point.posFace.xy / r.point.posFace.z;
+    vec2 slope = constants.light.x == distantLight ? vec2(0.0) : r.posFace.xy / r.posFace.z;
     if (constants.light.x >= sphereLight) return Footprint(slope, vec2(0.0));
-    mat3 faceFromLight = mat3(lightCameras[r.camera].faceFromLight);
-    vec3 x = faceFromLight * constants.halfAxisX.xyz, y = faceFromLight * constants.halfAxisY.xyz;
+    vec3 x = turnedToFace(r.camera, constants.halfAxisX.xyz), y = turnedToFace(r.camera, constants.halfAxisY.xyz);
     return Footprint(x.xy - slope * x.z, y.xy - slope * y.z);
 }
 

@@ -35,7 +35,7 @@ double penumbraReach(const AreaLight& light, const LightSpaceScene& scene, const
     return std::min(reach, widestMargin * window);
 }
 
-void appendMatrix(std::vector<double>& key, const glm::dmat4& matrix) {
+void appendMatrix(std::pmr::vector<double>& key, const glm::dmat4& matrix) {
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) key.push_back(matrix[column][row]);
     }
@@ -56,13 +56,13 @@ LightCameras fitMapCameras(const AreaLight& light, const LightSpaceScene& scene,
     return cameras;
 }
 
-void appendMapKey(std::vector<double>& key, const ShadowInputs& inputs, const LightSpaceScene& scene,
+void appendMapKey(std::pmr::vector<double>& key, const ShadowInputs& inputs, const LightSpaceScene& scene,
                   std::span<const LightCamera> cameras) {
     for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
         const Caster& caster = inputs.casters[i];
-        key.insert(key.end(),
-                   {double(caster.casts), double(caster.receives), double(caster.alphaMask.texture),
-                    double(caster.alphaMask.factor), double(caster.alphaMask.cutoff)});
+        key.insert(key.end(), {double(caster.casts), double(caster.receives),
+                               double(caster.alphaMask.texture), double(caster.alphaMask.revision),
+                               double(caster.alphaMask.factor), double(caster.alphaMask.cutoff)});
         appendMatrix(key, scene.lightFromMesh[i]);
         key.insert(key.end(), {double(caster.mesh->id()), double(caster.mesh->revision())});
     }

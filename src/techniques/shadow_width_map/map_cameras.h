@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory_resource>
 #include <vector>
 
 #include "src/techniques/common/light_camera.h"
@@ -13,7 +14,7 @@ namespace penumbra {
 LightCameras fitMapCameras(const AreaLight& light, const LightSpaceScene& scene, int mapSize_px);
 
 /// Appends everything that the maps depend on but their parameters: equal numbers, equal maps.
-void appendMapKey(std::vector<double>& key, const ShadowInputs& inputs, const LightSpaceScene& scene,
+void appendMapKey(std::pmr::vector<double>& key, const ShadowInputs& inputs, const LightSpaceScene& scene,
                   std::span<const LightCamera> cameras);
 
 }  // namespace penumbra

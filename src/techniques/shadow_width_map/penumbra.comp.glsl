@@ -1,63 +1,66 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
 // Exact mode, second pass: visibility past the nearest edges, where resolve.comp.glsl found them near enough.
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 64) in;
 
 #include "src/techniques/shadow_width_map/receiving.glsl"
 #include "src/techniques/shadow_width_map/footprint.glsl"
-#include "src/techniques/shadow_width_map/nearest_edge.glsl"
-#include "src/techniques/shadow_width_map/penumbra_tiles.glsl"
+#include "src/techniques/shadow_width_map/edge_cells.glsl"
+#include "src/techniques/shadow_width_map/penumbra_pixels.glsl"
 
-layout(binding = 5) uniform usampler2DArray edges;
+layout(binding = 4) uniform usampler2DArray nearestEdges;
 
-// How an edge divides the light for this receiver.
+// What an edge is to a receiver.
 struct Division {
-    bool isEdge;       // the edge stands above the receiver's horizon, and what is behind it lets light through
-    float seen;        // past the edge
-    float deepest_m;   // the depth of what is behind an edge that is none because this blocks as well; else 0
+    bool isEdge;      // it stands above the receiver's horizon, and what is behind it lets light through
+    bool isBehindToo; // it stands there, but what is behind it blocks as well
+    vec2 way_px;      // from the receiver's place in the map to the edge
+    float width_px;   // its length
 };
 
-// From a place in the map on the edge's blocked or lit side, the deepest known blocker there being at own_m.
-Division divide(Receiving r, Footprint footprint, uint edge, vec2 place_px, bool isBlocked, float own_m, bool isInner) {
-    Division division = Division(false, 0.0, 0.0);
-    ivec2 texel = edgeTexel(edge);
-    float stored = texelFetch(depthMaps, ivec3(texel, r.camera), 0).r;
-    float blocker_m = depthOf(r, max(stored, 1e-30));
-    if (blocker_m >= r.point.posFace.z || !isAbove(r, texel, stored)) return division;
-    ivec2 side = nearestSide(edge, place_px);
-    if (isInner) {
-        ivec2 behind = texel + side;
-        float storedBehind = texelFetch(depthMaps, ivec3(behind, r.camera), 0).r;
-        if (isAbove(r, behind, storedBehind)) {
-            division.deepest_m = depthOf(r, storedBehind);
-            return division;
-        }
-    }
-    division.isEdge = true;
-    vec2 way_px = middleOf(edge, side) - place_px;
-    float way = max(length(way_px), 1e-3);
-    vec2 extents = halfExtents(footprint, way_px / way);
-    // In the shadow of several blockers, the deepest is hardest to see past.
-    float spread = spreadOf(r, isBlocked ? min(max(blocker_m, own_m), r.point.posFace.z) : blocker_m);
-    float distance = way * r.depth.w;
-    bool isPast = distance >= (extents.x + extents.y) * spread;
-    division.seen = isPast ? (isBlocked ? 0.0 : 1.0) : shareBelow(extents * spread, isBlocked ? -distance : distance);
+Division divide(Receiving r, uvec4 edge, bool isInner) {
+    Division division;
+    float stored = storedAtEdge(edge);
+    bool stands = isEdge(edge) && nearnessOf(r.depth, stored) > r.nearness && isAbove(r, edgeTexel(edge), stored);
+    division.isBehindToo = stands && isInner && isAbove(r, texelBehind(edge), storedBehindEdge(edge));
+    division.isEdge = stands && !division.isBehindToo;
+    division.way_px = nearestOnEdge(edge, r.place_px, float(constants.cells.x)) - r.place_px;
+    division.width_px = isEdge(edge) ? length(division.way_px) : 1e9;
     return division;
 }
 
-// Visibility as a place in the map has it, by the nearest edges of the texel that it lies in.
-float seenFromPlace(Receiving r, Footprint footprint, ivec2 texel, vec2 place_px, vec2 width_px) {
-    float stored = texelFetch(depthMaps, ivec3(texel, r.camera), 0).r;
-    bool isBlocked = isAbove(r, texel, stored);
-    float own_m = isBlocked ? depthOf(r, stored) : 0.0;
+// The light that is seen past an edge of a blocker at a nearness, from its lit or its blocked side.
+float seenPast(Receiving r, Footprint footprint, uvec4 edge, Division division, float blocker, bool isBlocked) {
+    // Beside the edge, its line tells the sides apart, which cuts texels in two.
+    float behind_px = -dot(division.way_px, normalOf(edge));
+    bool isBeyond = division.width_px < 1.0 ? behind_px < 0.0 : isBlocked;
+    vec2 extents = halfExtents(footprint, division.way_px / max(division.width_px, 1e-3));
+    extents *= max(blocker - r.nearness, 0.0);
+    float distance = division.width_px * r.depth.w;
+    if (distance >= extents.x + extents.y) return isBeyond ? 0.0 : 1.0;
+    return shareBelow(extents, isBeyond ? -distance : distance);
+}
+
+// Visibility by the edges that are nearest to a cell.
+float seenFromCell(Receiving r, Footprint footprint, ivec2 cell, bool isBlocked, float own) {
+    uvec4 outline = texelFetch(nearestEdges, ivec3(cell, r.camera), 0), inner = uvec4(0u);
+    if (constants.light.w == 1) inner = texelFetch(nearestEdges, ivec3(cell, r.camera + constants.light.y), 0);
+    Division outlineDivides = divide(r, outline, false), innerDivides = divide(r, inner, true);
+
+    // In the shadow of several blockers, the deepest is hardest to see past. A blocker that reaches up to an inner edge
+    // from behind most likely goes on beneath the one before it.
+    float deepest = own;
     float seen = isBlocked ? 0.0 : 1.0;
-    for (int kind = constants.light.w; kind >= 0; --kind) {
-        if (width_px[kind] > float(r.size_px)) continue;  // there is no edge
-        uint edge = texelFetch(edges, ivec3(texel, r.camera + kind * constants.light.y), 0).r;
-        Division division = divide(r, footprint, edge, place_px, isBlocked, own_m, kind == 1);
-        if (division.isEdge) seen = isBlocked ? max(seen, division.seen) : min(seen, division.seen);
-        // A blocker that reaches up to an inner edge from behind most likely goes on beneath the one before it.
-        if (kind == 1 && isBlocked && width_px.y < width_px.x) own_m = max(own_m, division.deepest_m);
+    if (innerDivides.isEdge) {
+        float blocker = nearnessOf(r.depth, storedAtEdge(inner));
+        seen = seenPast(r, footprint, inner, innerDivides, isBlocked ? min(blocker, own) : blocker, isBlocked);
+    } else if (isBlocked && innerDivides.isBehindToo && innerDivides.width_px < outlineDivides.width_px) {
+        deepest = min(deepest, nearnessOf(r.depth, storedBehindEdge(inner)));
+    }
+    if (outlineDivides.isEdge) {
+        float blocker = nearnessOf(r.depth, storedAtEdge(outline));
+        float past = seenPast(r, footprint, outline, outlineDivides, isBlocked ? min(blocker, deepest) : blocker, isBlocked);
+        seen = isBlocked ? max(seen, past) : min(seen, past);
     }
     return seen;
 }
@@ -66,29 +69,29 @@ float seenBy(Receiver receiver) {
     Receiving r;
     if (!isFacing(receiver, true)) return 0.0;
     if (!startReceiving(receiver, r)) return 1.0;
-    vec2 place_px = r.point.uv * float(r.size_px);
-    vec2 width_px = widthsAt(r, ivec2(place_px));
-
-    // Beside an edge, visibility is interpolated between texels; neither widths nor depths mean anything in between.
+    ivec2 texel = ivec2(r.place_px);
+    float stored = texelFetch(depthMaps, ivec3(texel, r.camera), 0).r;
+    bool isBlocked = isAbove(r, texel, stored);
     Footprint footprint = footprintOf(r);
-    bool isBeside = min(width_px.x, width_px.y) <= besideEdge_px;
-    ivec2 corner = ivec2(floor(isBeside ? place_px - 0.5 : place_px));
-    vec2 weight = place_px - 0.5 - vec2(corner);
+
+    // Visibility is interpolated between cells; neither widths nor depths mean anything in between.
+    vec2 place = r.place_px / float(constants.cells.x) - 0.5;
+    ivec2 corner = ivec2(floor(place));
+    vec2 weight = place - vec2(corner);
     float seen = 0.0;
-    for (int i = 0; i < (isBeside ? 4 : 1); ++i) {
+    for (int i = 0; i < 4; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);
-        ivec2 texel = clamp(corner + offset, ivec2(0), ivec2(r.size_px - 1));
-        vec2 share = isBeside ? mix(1.0 - weight, weight, vec2(offset)) : vec2(1.0);
-        vec2 from_px = isBeside ? vec2(texel) + 0.5 : place_px;
-        seen += share.x * share.y * seenFromPlace(r, footprint, texel, from_px, widthsAt(r, texel));
+        ivec2 cell = clamp(corner + offset, ivec2(0), ivec2(constants.cells.y - 1));
+        vec2 share = mix(1.0 - weight, weight, vec2(offset));
+        seen += share.x * share.y * seenFromCell(r, footprint, cell, isBlocked, nearnessOf(r.depth, stored));
     }
     return clamp(seen, 0.0, 1.0);
 }
 
 void main() {
-    uint tile = penumbraTiles[gl_WorkGroupID.x];
-    ivec2 pixel = 8 * ivec2(tile & 0xffffu, tile >> 16) + ivec2(gl_LocalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
+    if (gl_GlobalInvocationID.x >= pixelCount) return;
+    uint place = penumbraPixels[gl_GlobalInvocationID.x];
+    ivec2 pixel = ivec2(place & 0xffffu, place >> 16);
     Receiver receiver;
     imageStore(visibility, pixel, vec4(loadReceiver(pixel, receiver) ? seenBy(receiver) : 1.0));
 }

@@ -14,31 +14,49 @@ const int rectLight = 0, diskLight = 1, sphereLight = 2, distantLight = 3;
 // Whether any of the light, or its centre, is above the surface's horizon and on the side that the light emits to.
 bool isFacing(Receiver receiver, bool anyOfLight) {
     vec3 normal = receiver.normalLight;
-    float height_m = constants.light.x == distantLight ? normal.z : -dot(normal, receiver.posLight);
+    float height_m = -dot(normal, constants.light.x == distantLight ? constants.emission.xyz : receiver.posLight);
     if (anyOfLight) {
-        float across = constants.light.x == distantLight ? length(normal.xy) : 1.0;
+        float across = constants.light.x == distantLight ? sqrt(max(1.0 - height_m * height_m, 0.0)) : 1.0;
         height_m += constants.halfAxisX.w * across;
         float x = dot(normal, constants.halfAxisX.xyz), y = dot(normal, constants.halfAxisY.xyz);
         height_m += constants.light.x == rectLight ? abs(x) + abs(y) : length(vec2(x, y));
     }
     // Nothing but a line of the light above the horizon is nothing.
     float least_m = anyOfLight ? 1e-5 * length(receiver.posLight) : 0.0;
-    return height_m > least_m && (constants.light.z == 0 || receiver.posLight.z < 0.0);
+    return height_m > least_m && (constants.light.z == 0 || dot(receiver.posLight, constants.emission.xyz) > 0.0);
 }
 
-// The camera in whose window the receiver lies deepest, so that all that surrounds its shadow is in the map too; -1 if
+// Software rasterizers read a storage block anew for every pixel and use; most lights have one map, and the constants of
+// that lie in the uniform block too.
+#ifdef ONE_MAP
+const int mapCount = 1;
+LightCameraConstants cameraOf(int map) { return constants.firstCamera; }
+vec3 turnedToFace(int map, vec3 direction) { return direction; }
+vec3 movedToFace(int map, vec3 pos) { return pos; }
+#else
+int mapCount = constants.light.y;
+LightCameraConstants cameraOf(int map) {
+    if (mapCount == 1) return constants.firstCamera;
+    return lightCameras[map];
+}
+vec3 turnedToFace(int map, vec3 direction) { return mat3(cameraOf(map).faceFromLight) * direction; }
+vec3 movedToFace(int map, vec3 pos) { return (cameraOf(map).faceFromLight * vec4(pos, 1.0)).xyz; }
+#endif
+
+// The map in whose window the receiver lies deepest, so that all that surrounds its shadow is in the map too; -1 if
 // none sees it.
-int deepestCamera(vec3 posLight, out MapPoint best) {
-    int bestCamera = -1;
+int deepestMap(vec3 posLight, out MapPoint best) {
+    int bestMap = -1;
     float deepest = 0.0;
     best = MapPoint(vec3(0.0, 0.0, 1.0), vec2(0.0), 0.0);
-    for (int camera = 0; camera < constants.light.y; ++camera) {
-        MapPoint point = mapPoint(camera, posLight);
+    for (int map = 0; map < mapCount; ++map) {
+        LightCameraConstants camera = cameraOf(map);
+        MapPoint point = mapPointOfFace(camera, movedToFace(map, posLight));
         float inside = min(min(point.uv.x, 1.0 - point.uv.x), min(point.uv.y, 1.0 - point.uv.y));
         if (!isInWindow(camera, point) || inside < deepest) continue;
         deepest = inside;
         best = point;
-        bestCamera = camera;
+        bestMap = map;
     }
-    return bestCamera;
+    return bestMap;
 }

@@ -1,77 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
 // What both passes of the exact mode know of a receiver.
 #include "src/techniques/shadow_width_map/receiver.glsl"
-
-layout(binding = 4) uniform sampler2DArray widths_px;
+#include "src/techniques/shadow_width_map/spread.glsl"
 
 // As in hard shadow maps: what a flat receiver needs at most for rounding, and a right angle lit at 45 degrees for
 // bending within a texel.
 const float toleranceTexels = 1.0;
 const float tolerancePrecision = 4e-6;
 
-// The camera's constants are copied: software rasterizers read a storage block anew for every pixel and use.
-struct Receiving {
-    int camera;
-    MapPoint point;
-    vec4 window, depth;  // of the camera
-    vec3 normalFace;
-    float height_m;      // of the receiver's plane: dot(normalFace, point.posFace)
-    bool isFacing;       // the light's centre is above the horizon
-    bool isOrthographic;
-    int size_px;
-    float widest;        // half extent of the light's footprint, at most
+// What stands above the receiver's plane: all whose nearness (spread.glsl), times `weight`, plus an affine function of the
+// place in the map, is more than `tolerance`. On any plane, nearness is affine in the map.
+struct AbovePlane {
+    float weight, tolerance;
+    float here, least, most;  // the affine function at the receiver, and its bounds
+    vec2 slope;               // a texel
 };
 
-float depthOf(Receiving r, float stored) {
-    return r.isOrthographic ? r.depth.y - stored * (r.depth.y - r.depth.x) : r.depth.x / stored;
+struct Receiving {
+    int camera, size_px;
+    vec2 place_px;
+    vec3 posFace;
+    vec4 depth;      // the camera's
+    float nearness;
+    AbovePlane above;
+};
+
+// Where the light's centre is above the receiver's horizon, what is in front of the plane as the centre sees it; bounded
+// near the plane's horizon (receiverPlaneDepth_m). Else, what stands on the plane's lit side.
+AbovePlane abovePlane(Receiving r, float texel_m, vec3 normalFace, bool isFacing, bool isOrthographic) {
+    float height_m = dot(normalFace, r.posFace);
+    float tolerance_m = toleranceTexels * texel_m + tolerancePrecision * length(r.posFace);
+    vec2 slope = normalFace.xy * r.depth.w;
+    if (!isFacing) {
+        if (isOrthographic) return AbovePlane(-normalFace.z, tolerance_m, -normalFace.z * r.posFace.z, -3e38, 3e38, slope);
+        return AbovePlane(-height_m - tolerance_m, 0.0, height_m * r.nearness, -3e38, 3e38, slope);
+    }
+    float squared = isOrthographic ? 1.0 : r.nearness * r.nearness;
+    float farthest = 64.0 * texel_m;
+    float least = isOrthographic ? farthest : 1.0 / max(r.posFace.z - farthest, 1e-3 * r.posFace.z) - r.nearness;
+    float most = isOrthographic ? farthest : r.nearness - 1.0 / (r.posFace.z + farthest);
+    return AbovePlane(1.0, tolerance_m * squared, -r.nearness, -r.nearness - least, -r.nearness + most,
+                      -slope / (isOrthographic ? normalFace.z : height_m));
 }
 
-// Whether what a texel sees, if anything, could hide some of the light: it is in front of the receiver's plane, seen from
-// the light's centre; or above the receiver's horizon, where the centre is below it.
+// Whether what a texel sees, if anything, could hide some of the light.
 bool isAbove(Receiving r, ivec2 texel, float stored) {
-    float blocker_m = depthOf(r, max(stored, 1e-30));
-    float tolerance_m = toleranceTexels * r.point.texel_m + tolerancePrecision * length(r.point.posFace);
-    vec2 place = (vec2(texel) + 0.5) / (float(r.size_px) * r.window.zw) + r.window.xy;
-    // Where the plane is seen through the texel; near its horizon, within bounds (receiverPlaneDepth_m).
-    float farthest_m = 64.0 * r.point.texel_m;
-    float along = r.isOrthographic ? r.normalFace.z : dot(r.normalFace, vec3(place, 1.0));
-    float above_m = r.isOrthographic ? r.height_m - dot(r.normalFace.xy, place) : r.height_m;
-    float plane_m = above_m * along > 0.0 || r.isOrthographic ? above_m / along : r.point.posFace.z + farthest_m;
-    plane_m = clamp(plane_m, r.point.posFace.z - farthest_m, r.point.posFace.z + farthest_m);
-    float overHorizon_m = along * blocker_m - above_m;
-    return stored > 0.0 && (r.isFacing ? plane_m - tolerance_m > blocker_m : overHorizon_m > tolerance_m);
+    float plane = r.above.here + dot(r.above.slope, vec2(texel) + 0.5 - r.place_px);
+    plane = clamp(plane, r.above.least, r.above.most);
+    return stored > 0.0 && r.above.weight * nearnessOf(r.depth, stored) + plane > r.above.tolerance;
 }
-
-float spreadOf(Receiving r, float blocker_m) {
-    return r.isOrthographic ? r.point.posFace.z - blocker_m : 1.0 / blocker_m - 1.0 / r.point.posFace.z;
-}
-
-// No penumbra of a blocker at this depth reaches farther than so many texels from its edge. Negative behind the receiver.
-float reach_px(Receiving r, float blocker_m) { return r.widest * spreadOf(r, blocker_m) / r.depth.w; }
-
-// Distances in texels to the nearest outer and inner edge.
-vec2 widthsAt(Receiving r, ivec2 texel) {
-    float outer = texelFetch(widths_px, ivec3(texel, r.camera), 0).r;
-    if (constants.light.w == 0) return vec2(outer, 2.0 * float(r.size_px));
-    return vec2(outer, texelFetch(widths_px, ivec3(texel, r.camera + constants.light.y), 0).r);
-}
-
-// Farther from an edge than this, the four texels around a place, at most 1.42 apart, are on the same side of it.
-const float besideEdge_px = 1.5;
 
 // False where no light camera sees the receiver: nothing can shadow it.
 bool startReceiving(Receiver receiver, out Receiving r) {
-    r.camera = deepestCamera(receiver.posLight, r.point);
+    MapPoint point;
+    r.camera = deepestMap(receiver.posLight, point);
     if (r.camera < 0) return false;
-    LightCameraConstants camera = lightCameras[r.camera];
-    r.window = camera.window;
-    r.depth = camera.depth;
-    r.normalFace = mat3(camera.faceFromLight) * receiver.normalLight;
-    r.height_m = dot(r.normalFace, r.point.posFace);
-    r.isFacing = isFacing(receiver, false);
-    r.isOrthographic = camera.depth.z == 1.0;
+    LightCameraConstants camera = cameraOf(r.camera);
     r.size_px = textureSize(depthMaps, 0).x;
-    // The shear of the footprint lengthens it by no more than the ray is longer than its depth.
-    r.widest = constants.extent.x * (r.isOrthographic ? 1.0 : length(r.point.posFace) / r.point.posFace.z);
+    r.place_px = point.uv * float(r.size_px);
+    r.posFace = point.posFace;
+    r.depth = camera.depth;
+    bool isOrthographic = camera.depth.z == 1.0;
+    r.nearness = isOrthographic ? -r.posFace.z : 1.0 / r.posFace.z;
+    vec3 normalFace = turnedToFace(r.camera, receiver.normalLight);
+    r.above = abovePlane(r, point.texel_m, normalFace, isFacing(receiver, false), isOrthographic);
     return true;
 }

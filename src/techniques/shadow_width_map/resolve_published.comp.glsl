@@ -19,7 +19,7 @@ float blockerDepth_m(int camera, vec3 receiverFace, float stored) {
 float seenBy(Receiver receiver) {
     if (!isFacing(receiver, false)) return 0.0;
     MapPoint point;
-    int camera = deepestCamera(receiver.posLight, point);
+    int camera = deepestMap(receiver.posLight, point);
     if (camera < 0) return 1.0;
     float size_px = float(textureSize(depthMaps, 0).x);
 
@@ -34,7 +34,7 @@ float seenBy(Receiver receiver) {
         width += w.x * w.y * texelFetch(widths, texel, 0).r;
     }
     // The receiver's own surface is no blocker: less than a texel and rounding apart.
-    vec3 normalFace = mat3(lightCameras[camera].faceFromLight) * receiver.normalLight;
+    vec3 normalFace = turnedToFace(camera, receiver.normalLight);
     float slope = length(normalFace.xy) / max(0.1, abs(normalFace.z));
     float tolerance_m = point.texel_m * (1.0 + slope) + 4e-6 * length(point.posFace);
     if (sd_m <= tolerance_m) return 1.0;

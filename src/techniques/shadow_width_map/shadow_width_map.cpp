@@ -23,10 +23,13 @@ constexpr float startDifference(int choice) {
     return 1.0f / float(4 << (2 * choice));
 }
 
-/// One invocation a line of the map.
+constexpr int groupsFor(int invocations, int groupSize) {
+    return (invocations + groupSize - 1) / groupSize;
+}
+
+/// One invocation a line of cells.
 void dispatchLines(int lines, int layers) {
-    constexpr int groupSize = 16;
-    glDispatchCompute(GLuint((lines + groupSize - 1) / groupSize), GLuint(layers), 1);
+    glDispatchCompute(GLuint(groupsFor(lines, 16)), GLuint(layers), 1);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
@@ -34,14 +37,33 @@ std::vector<std::string> shader(const char* name) {
     return {std::string("src/techniques/shadow_width_map/") + name};
 }
 
+std::array<gl::Program, 2> twoVariants(Device& device, const char* name) {
+    gl::ShaderLibrary& library = device.internals().shaders;
+    return {gl::Program(library, shader(name)),
+            gl::Program(library, shader(name), {"ONE_MAP", "WITH_NORMALS"})};
+}
+
+/// Arguments of an indirect dispatch of as many groups as have been listed, before any has.
+constexpr std::array<GLuint, 4> nothingListed = {0, 1, 1, 0};
+
+/// Half the light's largest extent; of a distant light, as a tangent.
+float largestHalfExtent(const AreaLight& light) {
+    if (light.shape == LightShape::rect) return 0.5f * std::hypot(light.width_m, light.height_m);
+    // Near 180 degrees a tangent says nothing any more.
+    return light.shape == LightShape::distant ? std::tan(0.5f * std::min(light.angle_rad, 3.0f))
+                                              : light.radius_m;
+}
+
 }  // namespace
 
 ShadowWidthMap::ShadowWidthMap(Device& device)
     : depthMap_(device),
+      edgeBlocks_(device.internals().shaders, shader("edge_blocks.comp.glsl")),
+      cellEdges_(device.internals().shaders, shader("cell_edges.comp.glsl")),
       edgeColumns_(device.internals().shaders, shader("edge_columns.comp.glsl")),
       edgeRows_(device.internals().shaders, shader("edge_rows.comp.glsl")),
-      resolve_(device.internals().shaders, shader("resolve.comp.glsl")),
-      penumbra_(device.internals().shaders, shader("penumbra.comp.glsl")),
+      resolve_(twoVariants(device, "resolve.comp.glsl")),
+      penumbra_(twoVariants(device, "penumbra.comp.glsl")),
       composite_(device.internals().shaders, shader("composite.comp.glsl")),
       published_(device.internals().shaders, shader("resolve_published.comp.glsl")),
       constants_("shadow-width constants") {}
@@ -90,16 +112,19 @@ void ShadowWidthMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
     const LightCameras cameras = fitMapCameras(inputs.light, scene, mapSize_px_);
 
-    std::vector<double> key = {double(mode_), double(mapSize_px_), double(innerEdges_), double(neighbours_),
-                               double(startDifference_)};
+    std::pmr::vector<double> key{
+        {double(mode_), double(mapSize_px_), double(innerEdges_), double(neighbours_),
+         double(startDifference_), double(largestHalfExtent(inputs.light))},
+        gl::LedgerScope::frameMemory()};
     appendMapKey(key, inputs, scene, cameras);
-    // Nobody can tell whether a mask's texels have changed.
-    const bool hasMask =
-        std::ranges::any_of(inputs.casters, [](const Caster& c) { return c.alphaMask.texture != 0; });
-    if (!reuseMaps_ || hasMask || key != mapsMadeFrom_) {
+    // Without a revision nobody can tell whether a mask's texels have changed.
+    const bool mayChangeUnseen = std::ranges::any_of(inputs.casters, [](const Caster& caster) {
+        return caster.alphaMask.texture != 0 && caster.alphaMask.revision == 0;
+    });
+    if (!reuseMaps_ || mayChangeUnseen || !std::ranges::equal(key, mapsMadeFrom_)) {
         mapsMadeFrom_.clear();
         makeMaps(inputs, scene, cameras);
-        mapsMadeFrom_ = std::move(key);
+        mapsMadeFrom_.assign(key.begin(), key.end());
         ++timesMade_;
     }
     resolve(inputs, lightFromWorldMatrix, out);
@@ -117,8 +142,11 @@ void ShadowWidthMap::makeMaps(const ShadowInputs& inputs, const LightSpaceScene&
                          backFaces_ ? DepthMap::Surface::farthestBack : DepthMap::Surface::nearest);
     }
     if (cameras.empty()) return;
+    faceFromLight_ = cameras.front().faceFromLight;
+    firstCamera_ = cameras.front().constants(mapSize_px_);
+    firstCamera_.faceFromLight = glm::mat4(1);
     if (mode_ == exact) {
-        findNearestEdges();
+        findNearestEdges(inputs.light);
     } else if (mode_ == compositing) {
         composite();
     } else {
@@ -126,48 +154,83 @@ void ShadowWidthMap::makeMaps(const ShadowInputs& inputs, const LightSpaceScene&
     }
 }
 
-void ShadowWidthMap::allocateWidths(int layers, bool scratch) {
-    const auto ensure = [&](gl::Texture& texture, int count, GLenum format, std::string_view label) {
-        if (texture.name() != 0 && texture.width_px() == mapSize_px_ && texture.layers() >= count) return;
-        texture = {};
-        texture = gl::Texture({.width_px = mapSize_px_,
-                               .height_px = mapSize_px_,
-                               .layers = count,
-                               .format = format,
-                               .label = label});
-    };
-    ensure(widths_, layers, GL_R32F, "shadow widths");
-    if (scratch) ensure(scratch_, layers, GL_R32F, "shadow widths, before a step");
-    if (mode_ == exact) {
-        ensure(columns_, depthMap_.count(), GL_RG16UI, "nearest edges in columns");
-        ensure(edges_, layers, GL_R32UI, "nearest edges");
-    }
+/// Small enough to keep apart what lies side by side, large enough that the nearest edge of every cell costs
+/// little beside drawing the map.
+int ShadowWidthMap::cell_px() const {
+    return mapSize_px_ <= 128 ? 1 : mapSize_px_ <= 256 ? 2 : mapSize_px_ <= 1024 ? 4 : 8;
 }
 
-void ShadowWidthMap::findNearestEdges() {
+void ShadowWidthMap::allocate(gl::Texture& texture, int size_px, int layers, GLenum format,
+                              std::string_view label) const {
+    if (texture.width_px() == size_px && texture.layers() >= layers) return;
+    texture = {};  // freed first, so that the two need not fit together
+    texture = gl::Texture(
+        {.width_px = size_px, .height_px = size_px, .layers = layers, .format = format, .label = label});
+}
+
+void ShadowWidthMap::allocateWidths(bool scratch) {
+    allocate(widths_, mapSize_px_, depthMap_.count(), GL_R32F, "shadow widths");
+    if (scratch) allocate(scratch_, mapSize_px_, depthMap_.count(), GL_R32F, "shadow widths, before a step");
+}
+
+void ShadowWidthMap::findNearestEdges(const AreaLight& light) {
     const int layers = depthMap_.count() * (hasInnerEdges_ ? 2 : 1);
-    allocateWidths(layers, false);
+    allocate(cells_, cellsAcross(), layers, GL_RGBA32UI, "edges in cells");
+    allocate(columns_, cellsAcross(), layers, GL_R32F, "nearest edges in columns");
+    allocate(nearest_, cellsAcross(), layers, GL_RGBA32UI, "nearest edges");
+    allocate(cellWidths_, cellsAcross(), layers, GL_RG32F, "shadow widths of cells");
+    const int blocks = groupsFor(mapSize_px_, 8);
+    const auto listSize_bytes = std::size_t(4 + blocks * blocks * depthMap_.count()) * sizeof(GLuint);
+    if (listedBlocks_.size_bytes() < listSize_bytes)
+        listedBlocks_ = gl::Buffer(listSize_bytes, "edge blocks");
+    listedBlocks_.write(std::as_bytes(std::span(nothingListed)));
+    glClearTexImage(cells_.name(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, nullptr);
+
+    depthMap_.bind(3, 0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, listedBlocks_.name());
+    {
+        const auto pass = timers_.pass("shadow-width/blocks");
+        edgeBlocks_.use();
+        glUniform1i(0, hasInnerEdges_);
+        glDispatchCompute(GLuint(groupsFor(blocks, 8)), GLuint(groupsFor(blocks, 8)),
+                          GLuint(depthMap_.count()));
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    }
+    {
+        const auto pass = timers_.pass("shadow-width/cells");
+        cellEdges_.use();
+        cells_.bindImage(0, GL_WRITE_ONLY);
+        glUniform1i(0, hasInnerEdges_);
+        glUniform1i(1, cell_px());
+        glUniform1i(2, depthMap_.count());
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, listedBlocks_.name());
+        glDispatchComputeIndirect(0);
+        glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    }
     {
         const auto pass = timers_.pass("shadow-width/columns");
         edgeColumns_.use();
-        depthMap_.bind(3, 0);
+        cells_.bind(0);
         columns_.bindImage(0, GL_READ_WRITE);
-        glUniform1i(0, hasInnerEdges_);
-        dispatchLines(mapSize_px_, depthMap_.count());
+        glUniform1i(1, cell_px());
+        dispatchLines(cellsAcross(), layers);
     }
     {
         const auto pass = timers_.pass("shadow-width/rows");
         edgeRows_.use();
-        columns_.bind(0);
-        edges_.bindImage(0, GL_READ_WRITE);
-        widths_.bindImage(1, GL_WRITE_ONLY);
-        glUniform1i(0, depthMap_.count());
-        dispatchLines(mapSize_px_, layers);
+        columns_.bind(1);
+        nearest_.bindImage(0, GL_READ_WRITE);
+        cellWidths_.bindImage(1, GL_READ_WRITE);
+        glUniform1i(0, hasInnerEdges_);
+        glUniform1i(1, cell_px());
+        glUniform1i(2, depthMap_.count());
+        glUniform1f(3, largestHalfExtent(light));
+        dispatchLines(cellsAcross(), depthMap_.count());
     }
 }
 
 void ShadowWidthMap::composite() {
-    allocateWidths(depthMap_.count(), true);
+    allocateWidths(true);
     const auto pass = timers_.pass("shadow-width/compositing");
     composite_.use();
     depthMap_.texture().bind(0);
@@ -192,7 +255,7 @@ void ShadowWidthMap::composite() {
 }
 
 void ShadowWidthMap::sweepOnCpu() {
-    allocateWidths(depthMap_.count(), false);
+    allocateWidths(false);
     const auto pass = timers_.pass("shadow-width/sweeps on the CPU");
     const auto texels = std::size_t(mapSize_px_) * std::size_t(mapSize_px_);
     std::vector<float> depths(texels);
@@ -208,7 +271,8 @@ void ShadowWidthMap::sweepOnCpu() {
     }
 }
 
-ShadowWidthConstants ShadowWidthMap::constants(const AreaLight& light) const {
+ShadowWidthConstants ShadowWidthMap::constants(const AreaLight& light,
+                                               const glm::dmat3& spaceFromLight) const {
     ShadowWidthConstants result{};
     float halfExtent = light.radius_m;
     if (light.shape == LightShape::rect) {
@@ -218,57 +282,59 @@ ShadowWidthConstants ShadowWidthMap::constants(const AreaLight& light) const {
     } else if (light.shape == LightShape::disk) {
         result.halfAxisX.x = result.halfAxisY.y = light.radius_m;
     } else {
-        // Near 180 degrees a tangent says nothing any more.
-        if (light.shape == LightShape::distant) halfExtent = std::tan(0.5f * std::min(light.angle_rad, 3.0f));
+        halfExtent = largestHalfExtent(light);
         result.halfAxisX.w = halfExtent;
     }
     result.halfAxisY.w = halfExtent;
-    const float largest =
-        light.shape == LightShape::rect ? 0.5f * std::hypot(light.width_m, light.height_m) : halfExtent;
+    result.halfAxisX = glm::vec4(spaceFromLight * glm::dvec3(result.halfAxisX), result.halfAxisX.w);
+    result.halfAxisY = glm::vec4(spaceFromLight * glm::dvec3(result.halfAxisY), result.halfAxisY.w);
+    result.emission = glm::dvec4(spaceFromLight * glm::dvec3(0, 0, -1), 0);
     result.attenuation = {physical_ ? -1 : cScale_, cBias_, 1 / startDifference(startDifference_), 0};
-    result.extent.x = largest;
+    result.extent.x = largestHalfExtent(light);
     result.light = {int(light.shape), depthMap_.count(), isOneSided(light), hasInnerEdges_};
+    result.firstCamera = firstCamera_;
+    result.cells = {cell_px(), cellsAcross(), 0, 0};
     return result;
 }
 
 void ShadowWidthMap::resolve(const ShadowInputs& inputs, const glm::dmat4& lightFromWorld,
                              VisibilityBuffer& out) {
-    view_.bind(inputs.view, lightFromWorld);
-    constants_.write(constants(inputs.light));
+    // With one map, shaders work in that map's space, which spares them a transform.
+    const bool isOneMap = depthMap_.count() == 1;
+    const glm::dmat4 faceFromLight = isOneMap ? faceFromLight_ : glm::dmat4(1);
+    view_.bind(inputs.view, faceFromLight * lightFromWorld);
+    constants_.write(constants(inputs.light, glm::dmat3(faceFromLight)));
     constants_.bindUniform(1);
     depthMap_.bind(3, 0);
-    widths_.bind(4);
     bindVisibility(out, 0);
     if (mode_ == exact) {
-        resolveExact(out);
+        resolveExact(inputs.view, out);
     } else {
         resolvePublished(out);
     }
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void ShadowWidthMap::resolveExact(const VisibilityBuffer& out) {
-    const std::size_t tiles = std::size_t((out.width_px() + 7) / 8) * std::size_t((out.height_px() + 7) / 8);
-    if (listedTiles_.size_bytes() < tiles * sizeof(GLuint)) {
-        listedTiles_ = gl::Buffer(tiles * sizeof(GLuint), "listed tiles");
-        penumbraTiles_ = gl::Buffer((4 + tiles) * sizeof(GLuint), "penumbra tiles");
+void ShadowWidthMap::resolveExact(const View& view, const VisibilityBuffer& out) {
+    const std::size_t pixels = std::size_t(out.width_px()) * std::size_t(out.height_px());
+    if (penumbraPixels_.size_bytes() < (4 + pixels) * sizeof(GLuint)) {
+        penumbraPixels_ = gl::Buffer((4 + pixels) * sizeof(GLuint), "pixels in penumbrae");
     }
-    const std::array<GLuint, 4> noTiles = {0, 1, 1, 0};
-    penumbraTiles_.write(std::as_bytes(std::span(noTiles)));
-    glClearNamedBufferData(listedTiles_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, penumbraTiles_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, listedTiles_.name());
-    edges_.bind(5);
+    const std::size_t variant = depthMap_.count() == 1 && view.normalTexture != 0;
+    penumbraPixels_.write(std::as_bytes(std::span(nothingListed)));
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, penumbraPixels_.name());
     {
         const auto pass = timers_.pass("shadow-width/resolve");
-        resolve_.use();
+        resolve_[variant].use();
+        cellWidths_.bind(4);
         gl::dispatchPixels(out.width_px(), out.height_px());
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     }
     {
         const auto pass = timers_.pass("shadow-width/penumbra");
-        penumbra_.use();
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, penumbraTiles_.name());
+        penumbra_[variant].use();
+        nearest_.bind(4);
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, penumbraPixels_.name());
         glDispatchComputeIndirect(0);
     }
 }
@@ -277,6 +343,7 @@ void ShadowWidthMap::resolvePublished(const VisibilityBuffer& out) {
     const auto pass = timers_.pass("shadow-width/resolve");
     if (tabulatedCurve_ != curve_) setAttenuation(curve_ == 0 ? linearAttenuation : smoothAttenuation);
     published_.use();
+    widths_.bind(4);
     curveTable_.bind(5);
     glUniform1f(0, background());
     glUniform1f(1, attenuationTableEnd);
@@ -286,13 +353,12 @@ void ShadowWidthMap::resolvePublished(const VisibilityBuffer& out) {
 void ShadowWidthMap::inspect(InspectionVisitor& visitor) const {
     const int count = depthMap_.count();
     visitor.texture({.name = "depth map", .texture = depthMap_.texture().name(), .layers = count});
-    if (widths_.name() == 0) return;
-    if (mode_ == exact) {
+    if (mode_ == exact && cellWidths_.name() != 0) {
         visitor.texture({.name = "distance to the nearest edge",
-                         .texture = widths_.name(),
+                         .texture = cellWidths_.name(),
                          .layers = count * (hasInnerEdges_ ? 2 : 1),
                          .white = 64});
-    } else {
+    } else if (mode_ != exact && widths_.name() != 0) {
         visitor.texture({.name = "shadow-width map", .texture = widths_.name(), .layers = count});
     }
 }

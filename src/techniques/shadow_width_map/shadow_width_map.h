@@ -5,6 +5,8 @@
 // both sides of the hard edge.
 #pragma once
 
+#include <array>
+
 #include "penumbra/technique.h"
 #include "src/gl/pass_timers.h"
 #include "src/gl/program.h"
@@ -33,14 +35,17 @@ class ShadowWidthMap final : public Technique {
 
     void makeMaps(const ShadowInputs& inputs, const LightSpaceScene& scene,
                   std::span<const LightCamera> cameras);
-    void findNearestEdges();
+    void findNearestEdges(const AreaLight& light);
     void composite();
     void sweepOnCpu();
     void resolve(const ShadowInputs& inputs, const glm::dmat4& lightFromWorld, VisibilityBuffer& out);
-    void allocateWidths(int layers, bool scratch);
+    void allocate(gl::Texture& texture, int size_px, int layers, GLenum format, std::string_view label) const;
+    void allocateWidths(bool scratch);
     void resolvePublished(const VisibilityBuffer& out);
-    void resolveExact(const VisibilityBuffer& out);
-    ShadowWidthConstants constants(const AreaLight& light) const;
+    void resolveExact(const View& view, const VisibilityBuffer& out);
+    ShadowWidthConstants constants(const AreaLight& light, const glm::dmat3& spaceFromLight) const;
+    int cell_px() const;
+    int cellsAcross() const { return (mapSize_px_ + cell_px() - 1) / cell_px(); }
     float background() const { return backFaces_ ? 1.0f : 0.0f; }
 
     int mode_ = exact;
@@ -55,17 +60,21 @@ class ShadowWidthMap final : public Technique {
     int startDifference_ = 3;
 
     DepthMap depthMap_;
-    gl::Program edgeColumns_, edgeRows_, resolve_, penumbra_;
+    gl::Program edgeBlocks_, cellEdges_, edgeColumns_, edgeRows_;
+    std::array<gl::Program, 2> resolve_, penumbra_;  ///< whatever there is; one map, and normals
     gl::Program composite_, published_;
-    gl::Texture columns_, edges_, widths_, scratch_, curveTable_;
+    gl::Texture cells_, columns_, nearest_, cellWidths_;  ///< exact mode
+    gl::Texture widths_, scratch_, curveTable_;           ///< published modes
     int tabulatedCurve_ = -1;
-    gl::Buffer penumbraTiles_, listedTiles_;
+    gl::Buffer listedBlocks_, penumbraPixels_;
     gl::ConstantBuffer<ShadowWidthConstants> constants_;
     ViewBinding view_;
     gl::PassTimers timers_;
 
     bool hasInnerEdges_ = false;  ///< of the maps as they are
     bool backFaces_ = false;
+    LightCameraConstants firstCamera_{};  ///< in its own space
+    glm::dmat4 faceFromLight_{1};
     std::vector<double> mapsMadeFrom_;
     int timesMade_ = 0;
 };

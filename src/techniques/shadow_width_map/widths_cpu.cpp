@@ -70,10 +70,11 @@ std::vector<float> sweepShadowWidths(std::span<const bool> blocked, int size_px,
     return widths;
 }
 
-std::vector<float> exactShadowWidths(std::span<const bool> blocked, int size_px) {
-    const auto size = std::size_t(size_px);
+std::vector<float> exactShadowWidths(std::span<const bool> blocked, int size_px, int cell_px) {
+    const auto size = std::size_t(size_px), cell = std::size_t(cell_px);
+    const std::size_t cells = (size + cell - 1) / cell;
     // On a grid of half texels, a texel's centre is at odd places, and the middles of its sides beside that.
-    const std::size_t halves = 2 * size + 1;
+    const std::size_t halves = 2 * cells * cell + 1;
     std::vector<double> squares(halves * halves, infinity);
     for (std::size_t y = 0; y < size; ++y) {
         for (std::size_t x = 0; x < size; ++x) {
@@ -84,12 +85,14 @@ std::vector<float> exactShadowWidths(std::span<const bool> blocked, int size_px)
                 squares[(2 * y + 2) * halves + 2 * x + 1] = 0;
         }
     }
-    LineTransform line(2 * size_px + 1);
+    const int length = int(halves);
+    LineTransform line(length);
+    const auto middleOf = [&](std::size_t index) { return cell * (2 * index + 1); };
     for (std::size_t x = 0; x < halves; ++x) line.apply(squares, x, halves);
-    for (std::size_t y = 1; y < halves; y += 2) line.apply(squares, y * halves, 1);
-    std::vector<float> widths(size * size);
+    for (std::size_t row = 0; row < cells; ++row) line.apply(squares, middleOf(row) * halves, 1);
+    std::vector<float> widths(cells * cells);
     for (std::size_t i = 0; i < widths.size(); ++i) {
-        widths[i] = float(0.5 * std::sqrt(squares[(2 * (i / size) + 1) * halves + 2 * (i % size) + 1]));
+        widths[i] = float(0.5 * std::sqrt(squares[middleOf(i / cells) * halves + middleOf(i % cells)]));
     }
     return widths;
 }

@@ -13,9 +13,10 @@ namespace penumbra {
 /// nearest texel that is not blocked, `difference` a step, at most 1.
 std::vector<float> sweepShadowWidths(std::span<const bool> blocked, int size_px, float difference);
 
-/// The Euclidean distance in texels from the centre of each texel to the silhouette: to the middle of the
-/// nearest side between a texel that is blocked and one that is not; infinity where there is none. In
+/// The Euclidean distance in texels from the middle of each square cell of cell_px * cell_px texels to the
+/// silhouette: to the middle of the nearest side between a texel that is blocked and one that is not;
+/// infinity where there is none. Cells begin at texel 0; the last ones may reach over the map's end. In
 /// doubles, by Felzenszwalb and Huttenlocher 2012.
-std::vector<float> exactShadowWidths(std::span<const bool> blocked, int size_px);
+std::vector<float> exactShadowWidths(std::span<const bool> blocked, int size_px, int cell_px = 1);
 
 }  // namespace penumbra
