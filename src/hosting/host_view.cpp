@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/hosting/host_view.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
