@@ -108,16 +108,16 @@ class MultisampledPlane {
         glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, texture_, 0);
         glNamedFramebufferDrawBuffer(framebuffer, GL_NONE);
         glCreateVertexArrays(1, &vertexArray);
-        const GLuint program = link(vertex, fragment);
+        const Program program(vertex, fragment);
         const glm::dmat4 clipFromWorld =
             glm::dmat4(fromPenumbra(view.clipFromView)) * glm::dmat4(fromPenumbra(view.viewFromWorld));
         const glm::mat4 forward(clipFromWorld), backward(glm::inverse(clipFromWorld));
-        glProgramUniformMatrix4fv(program, 0, 1, GL_FALSE, &backward[0][0]);
-        glProgramUniformMatrix4fv(program, 4, 1, GL_FALSE, &forward[0][0]);
-        glProgramUniform2f(program, 8, float(view.width_px), float(view.height_px));
+        glProgramUniformMatrix4fv(program.name(), 0, 1, GL_FALSE, &backward[0][0]);
+        glProgramUniformMatrix4fv(program.name(), 4, 1, GL_FALSE, &forward[0][0]);
+        glProgramUniform2f(program.name(), 8, float(view.width_px), float(view.height_px));
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
         glViewport(0, 0, view.width_px, view.height_px);
-        glUseProgram(program);
+        glUseProgram(program.name());
         glBindVertexArray(vertexArray);
         glEnable(GL_DEPTH_TEST);
         glEnable(GL_MULTISAMPLE);
@@ -126,7 +126,6 @@ class MultisampledPlane {
         glDrawArrays(GL_TRIANGLES, 0, 3);
         glDeleteFramebuffers(1, &framebuffer);
         glDeleteVertexArrays(1, &vertexArray);
-        glDeleteProgram(program);
     }
     MultisampledPlane(const MultisampledPlane&) = delete;
     MultisampledPlane& operator=(const MultisampledPlane&) = delete;
@@ -134,23 +133,6 @@ class MultisampledPlane {
     GLuint texture() const { return texture_; }
 
   private:
-    static GLuint link(const char* vertex, const char* fragment) {
-        const GLuint program = glCreateProgram();
-        for (const auto& [stage, text] :
-             {std::pair{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}) {
-            const GLuint shader = glCreateShader(GLenum(stage));
-            glShaderSource(shader, 1, &text, nullptr);
-            glCompileShader(shader);
-            glAttachShader(program, shader);
-            glDeleteShader(shader);
-        }
-        glLinkProgram(program);
-        GLint linked = 0;
-        glGetProgramiv(program, GL_LINK_STATUS, &linked);
-        EXPECT_EQ(linked, GL_TRUE);
-        return program;
-    }
-
     GLuint texture_ = 0;
 };
 

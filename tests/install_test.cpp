@@ -146,7 +146,7 @@ TEST_F(Installed, ServesVtk) {
         return readPng(at(name)).image;
     };
     const Image plain = picture("plain.png", "--no-shadows");
-    const Image shadowed = picture("shadowed.png", "--technique soft-volumes");
+    const Image shadowed = picture("shadowed.png", "--technique exact");
     ASSERT_EQ(plain.values.size(), shadowed.values.size());
     std::size_t same = 0, darker = 0, between = 0;
     for (std::size_t i = 0; i < plain.values.size(); ++i) {

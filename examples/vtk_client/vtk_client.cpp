@@ -251,7 +251,7 @@ void buildScene(vtkRenderer* renderer) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-    std::string technique = "soft-volumes", screenshot;
+    std::string technique = "exact", screenshot;
     bool shadows = true;
     for (int i = 1; i < argc; ++i) {
         const std::string flag = argv[i];

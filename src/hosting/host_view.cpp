@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/hosting/host_view.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -56,15 +55,17 @@ void checkTexture(const char* name, GLuint texture, const View& view) {
     }
 }
 
-/// How far apart two depths are that a shader can tell from each other, where that is worst; 0 for reversed
-/// floats, which are as precise as the positions that are made of them.
-double depthStep(GLuint texture, bool reversed) {
-    constexpr int mantissa_bits = 24;
-    const double ofShader = reversed ? 0 : std::exp2(-mantissa_bits);
+/// How far behind its surface a depth may seem to lie: a step of the format, and what floats have lost. That
+/// is nothing near 0, where reversed depths are. Near 1, where the others are, each rounding is up to 2^-24
+/// of depth, and there are six: of the host's matrix from mesh to clip space, of z there, of its share of w,
+/// of its place between a triangle's corners, of the depth as a shader reads it, and of the shifted matrix.
+/// (Those that llvmpipe draws are up to 3.8 * 2^-24 from where they should be.)
+double depthError(GLuint texture, bool reversed) {
+    const double ofFloats = reversed ? 0 : 6 * std::exp2(-24);
     GLint type = GL_NONE;
     glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH_TYPE, &type);
-    if (type != GL_UNSIGNED_NORMALIZED) return ofShader;
-    return std::max(ofShader, std::exp2(-levelParameter(texture, GL_TEXTURE_DEPTH_SIZE)));
+    if (type != GL_UNSIGNED_NORMALIZED) return ofFloats;
+    return ofFloats + std::exp2(-levelParameter(texture, GL_TEXTURE_DEPTH_SIZE));
 }
 
 /// The camera whose clip space lies `shift` (in normalised device coordinates) away: a point that this one
@@ -118,10 +119,10 @@ View HostView::prepare(const View& view) {
         // Techniques look at pixels' centres: there the sample is moved.
         shift = glm::dvec3(2.0 * (samplePlace(view) - 0.5) / glm::dvec2(view.width_px, view.height_px), 0);
     }
-    // A depth stands for all that are rounded to it: the one nearest to the viewer is taken, so that no
+    // A depth stands for all that may have become it: the one nearest to the viewer is taken, so that no
     // surface lies behind itself. Without this, 24 bits speckle where techniques compare exactly.
-    const double step = depthStep(view.depthTexture, view.depth.reversed);
-    shift.z = step * (view.depth.reversed ? 1 : -1) *
+    const double error = depthError(view.depthTexture, view.depth.reversed);
+    shift.z = error * (view.depth.reversed ? 1 : -1) *
               (view.depth.range == DepthConvention::Range::minusOneToOne ? 2 : 1);
     if (shift != glm::dvec3(0)) plain.clipFromView = shifted(view.clipFromView, shift);
     plain.depthTexture = copied(view.depthTexture, depth_, GL_R32F, view);

@@ -3,10 +3,37 @@
 
 #include <optional>
 
+#include "src/gl/gl.h"
 #include "studio/scene/builtin/builtin.h"
 #include "tests/support/technique_test.h"
 
 namespace penumbra::studio {
+
+/// A host's own shaders.
+class Program {
+  public:
+    Program(const char* vertex, const char* fragment) : name_(glCreateProgram()) {
+        for (const auto& [stage, text] :
+             {std::pair{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}) {
+            const GLuint shader = glCreateShader(GLenum(stage));
+            glShaderSource(shader, 1, &text, nullptr);
+            glCompileShader(shader);
+            glAttachShader(name_, shader);
+            glDeleteShader(shader);
+        }
+        glLinkProgram(name_);
+        GLint linked = 0;
+        glGetProgramiv(name_, GL_LINK_STATUS, &linked);
+        EXPECT_EQ(linked, GL_TRUE);
+    }
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+    ~Program() { glDeleteProgram(name_); }
+    GLuint name() const { return name_; }
+
+  private:
+    GLuint name_;
+};
 
 /// A context of its own for each test, so that what a host does to it hurts no other test.
 class HostTest : public ::testing::Test {
@@ -21,7 +48,9 @@ class HostTest : public ::testing::Test {
     Device& device() { return workbench_->device(); }
 
     /// A scene's frame, ready for techniques.
-    ShadowInputs drawScene(PictureSize size = {96, 72}) {
+    ShadowInputs drawScene(PictureSize size = {96, 72}) { return drawScene("two-boxes", size); }
+    ShadowInputs drawScene(const char* builtin, PictureSize size) {
+        scene_ = makeBuiltin(builtin);
         moment_ = scene_.at(0);
         workbench_->open(scene_);
         const auto hard = workbench_->makeTechnique("hard");
@@ -29,7 +58,7 @@ class HostTest : public ::testing::Test {
         return workbench_->frame().shadowInputs(moment_.lights.front());
     }
 
-    const Scene scene_ = makeBuiltin("two-boxes");
+    Scene scene_;
     SceneMoment moment_;
 
   private:

@@ -13,11 +13,14 @@ struct Receiver {
     vec3 normalLight;  // geometric, unit length, on the camera's side
 };
 
-bool isBackground(float depth) { return depth == view.clipZFromDepth.z; }
+bool isBackground(float depth) { return depth == view.nearnessFromDepth.z; }
 
+// Nearness is 0 at the background, as reversed depth is. A depth of the other kind lies close below 1, and taking it from 1
+// is exact; in the matrix's own sums 1 would cancel out only after it has rounded them, by as many metres as a whole step
+// of the depth is wide.
 vec3 positionLight(vec2 pixel, float depth) {
     vec2 ndc = 2.0 * (pixel + 0.5) / vec2(view.size_px.xy) - 1.0;
-    vec4 pos = view.lightFromClip * vec4(ndc, depth * view.clipZFromDepth.x + view.clipZFromDepth.y, 1.0);
+    vec4 pos = view.lightFromPicture * vec4(ndc, depth * view.nearnessFromDepth.x + view.nearnessFromDepth.y, 1.0);
     return pos.xyz / pos.w;
 }
 

@@ -86,10 +86,16 @@ bool isOneSided(const AreaLight& light) {
 void ViewBinding::bind(const View& view, const glm::dmat4& lightFromWorldMatrix) {
     const bool zeroToOne = view.depth.range == DepthConvention::Range::zeroToOne;
     const glm::dmat4 clipFromWorld = toGlm(view.clipFromView) * toGlm(view.viewFromWorld);
+    // Nearness is depth, or what it lacks to 1; clip-space z is depth as it is, or from -1.
+    const double depthScale = view.depth.reversed ? 1 : -1, depthOffset = view.depth.reversed ? 0 : 1;
+    const double zScale = zeroToOne ? 1 : 2, zOffset = zeroToOne ? 0 : -1;
+    glm::dmat4 clipFromPicture(1);
+    clipFromPicture[2][2] = zScale * depthScale;
+    clipFromPicture[3][2] = zScale * depthOffset + zOffset;
     constants_.write({
-        .lightFromClip = lightFromWorldMatrix * glm::inverse(clipFromWorld),
+        .lightFromPicture = lightFromWorldMatrix * glm::inverse(clipFromWorld) * clipFromPicture,
         .lightFromWorld = lightFromWorldMatrix,
-        .clipZFromDepth = {zeroToOne ? 1 : 2, zeroToOne ? 0 : -1, view.depth.reversed ? 0 : 1, 0},
+        .nearnessFromDepth = {depthScale, depthOffset, view.depth.reversed ? 0 : 1, 0},
         .size_px = {view.width_px, view.height_px, view.normalTexture != 0, view.receiverTexture != 0},
     });
     constants_.bindUniform(0);

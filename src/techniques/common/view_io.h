@@ -12,10 +12,10 @@ using glm::vec4;
 #endif
 
 struct ViewConstants {
-    mat4 lightFromClip;   // clip z in [0, 1] or [-1, 1], as the view says
-    mat4 lightFromWorld;  // rotates normals
-    vec4 clipZFromDepth;  // x: scale, y: offset, z: the background's depth
-    ivec4 size_px;        // xy: size; z: 1 if there are normals; w: 1 if there is a receiver mask
+    mat4 lightFromPicture;   // from normalised x and y, and nearness
+    mat4 lightFromWorld;     // rotates normals
+    vec4 nearnessFromDepth;  // x: scale, y: offset, z: the background's depth
+    ivec4 size_px;           // xy: size; z: 1 if there are normals; w: 1 if there is a receiver mask
 };
 
 #ifdef __cplusplus
