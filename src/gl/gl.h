@@ -15,7 +15,7 @@ namespace penumbra::gl {
 /// What a device's objects and frames have in common.
 struct Ledger {
     std::size_t size_bytes = 0;  ///< that objects take
-    bool contextLost = false;  ///< names mean nothing any more, and OpenGL must not be called for them
+    bool contextLost = false;    ///< names mean nothing any more, and OpenGL must not be called for them
 
     /// For what a frame needs on the CPU and forgets: it comes back for the next, so that a settled frame
     /// allocates nothing.

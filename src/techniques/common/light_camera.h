@@ -17,8 +17,8 @@ namespace penumbra {
 
 /// What the light may shadow: the visible part of everything that receives, in light space.
 struct ReceiverRegion {
-    /// A face of a hexahedron has four corners, and each of the planes that cut it (a frustum's or a box's six,
-    /// the light's, a cube face's four) adds one at most.
+    /// A face of a hexahedron has four corners, and each of the planes that cut it (a frustum's or a box's
+    /// six, the light's, a cube face's four) adds one at most.
     using Polygon = InlineVector<glm::dvec3, 16>;
     using Polygons = std::pmr::vector<Polygon>;
     /// The surfaces of convex pieces, each the intersection of a receiver's box with the view frustum.

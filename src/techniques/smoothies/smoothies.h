@@ -31,8 +31,7 @@ class Smoothies final : public Technique {
   private:
     SmoothieConstants constantsOf(const AreaLight& light, const LightCamera& camera,
                                   const LightSpaceScene& scene) const;
-    void drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene,
-                  const LightCameras& cameras);
+    void drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene, const LightCameras& cameras);
     void allocate(int layers);
     void buildSmoothies(bool distant);
     void bindConstants(int firstCamera) const;
@@ -41,8 +40,8 @@ class Smoothies final : public Technique {
     void profileLight(GLuint radianceTexture);
     void useForPicture(const gl::Program& program, const AreaLight& light) const;
     void resolve(const AreaLight& light, const VisibilityBuffer& out);
-    void resolveMasked(const ShadowInputs& inputs, const LightSpaceScene& scene,
-                       const LightCameras& cameras, const VisibilityBuffer& out);
+    void resolveMasked(const ShadowInputs& inputs, const LightSpaceScene& scene, const LightCameras& cameras,
+                       const VisibilityBuffer& out);
 
     int mapSize_px_ = 1024;
     float t_ = 0;
