@@ -13,12 +13,7 @@ HardVolumes::HardVolumes(Device& device)
       alphaMaskWarning_(device) {}
 
 void HardVolumes::describe(ParameterVisitor& visitor) {
-    static constexpr std::array<std::string_view, 3> countings = {"auto", "z-pass", "z-fail"};
-    visitor.choice(
-        {.name = "counting",
-         .help = "which sides of shadow volumes are counted: auto takes z-pass, the cheaper one, unless the "
-                 "eye lies within rounding of a side"},
-        counting_, countings);
+    describeCounting(visitor, counting_);
     static constexpr std::array<std::string_view, 2> openMeshes = {"signed", "capped"};
     visitor.choice(
         {.name = "open_meshes",

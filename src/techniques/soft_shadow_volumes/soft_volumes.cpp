@@ -29,7 +29,6 @@ SoftVolumes::SoftVolumes(Device& device)
 }
 
 void SoftVolumes::describe(ParameterVisitor& visitor) {
-    static constexpr std::array<std::string_view, 3> countings = {"auto", "z-pass", "z-fail"};
     static constexpr std::array<std::string_view, 2> methods = {"layers", "wedges"};
     visitor.choice(
         {.name = "method",
@@ -47,11 +46,7 @@ void SoftVolumes::describe(ParameterVisitor& visitor) {
                   .unit = "ms",
                   .help = "device time that the V-buffer's size is chosen to keep to; 0: v_buffer says"},
                  frameBudget_ms_, {0, 1e9f});
-    visitor.choice(
-        {.name = "counting",
-         .help = "which sides of shadow volumes are counted: auto takes z-pass, the cheaper one, unless the "
-                 "eye lies within rounding of a side"},
-        counting_, countings);
+    describeCounting(visitor, counting_);
     static constexpr std::array<std::string_view, 2> markings = {"none", "stencil"};
     visitor.choice(
         {.name = "marking",

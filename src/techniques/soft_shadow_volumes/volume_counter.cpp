@@ -32,6 +32,15 @@ gl::RasterState countingState(const VolumeConstants& constants, GLenum depthTest
 
 }  // namespace
 
+void describeCounting(ParameterVisitor& visitor, int& counting) {
+    static constexpr std::array<std::string_view, 3> countings = {"auto", "z-pass", "z-fail"};
+    visitor.choice(
+        {.name = "counting",
+         .help = "which sides of shadow volumes are counted: auto takes z-pass, the cheaper one, unless the "
+                 "eye lies within rounding of a side"},
+        counting, countings);
+}
+
 VolumeCounter::VolumeCounter(Device& device)
     : silhouettes_(device),
       blockers_(program(device, {"eye_blockers.comp.glsl"})),

@@ -19,6 +19,9 @@ enum class Counting {
     zFail,      ///< those behind the receiver, and the caps (Carmack 2000)
 };
 
+/// The parameter that chooses it: `counting` is a Counting.
+void describeCounting(ParameterVisitor& visitor, int& counting);
+
 class VolumeCounter {
   public:
     explicit VolumeCounter(Device& device);
