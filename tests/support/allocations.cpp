@@ -17,6 +17,14 @@ void* operator new(std::size_t size) {
     if (void* const place = std::malloc(size == 0 ? 1 : size)) return place;
     throw std::bad_alloc();
 }
+// Of what the standard library makes of the two above, sanitizers replace this one with their own.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    try {
+        return operator new(size);
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
 void operator delete(void* place) noexcept {
     std::free(place);
 }
