@@ -31,6 +31,18 @@ void gather(LightEdge edge) {
     if (place < 32u * uint(volume.tiles.w)) lightEdges[place] = edge;
 }
 
+// Whether a face may reach into a spherical light. The same, to the last bit, for all who ask about this face. More do
+// than touch it, by a thousandth at least: for those nothing is lost but time.
+bool mayReachIntoSphere(uint face) {
+    uint first = 3u * (face >> 1);
+    vec3 a = positionLight(indices[first]), b = positionLight(indices[first + 1u]), c = positionLight(indices[first + 2u]);
+    float radius = 1.001 * volume.lightSize.x;
+    bool isBeside = any(greaterThan(min(min(a, b), c), vec3(radius))) || any(lessThan(max(max(a, b), c), vec3(-radius)));
+    vec4 plane = facePlane(face);
+    precise float square = (plane.x * plane.x + plane.y * plane.y) + plane.z * plane.z;
+    return !isBeside && plane.w * plane.w <= radius * radius * square;
+}
+
 // Where an edge whose ends lie on different sides meets the plane of a flat light. The same, to the last bit, for all
 // who ask about this edge, so that what they cut fits together.
 vec3 cutPoint(vec3 a, vec3 b) {

@@ -60,7 +60,7 @@ constexpr std::size_t largestStates_bytes = std::size_t(64) << 20;
 
 /// What soft_resolve.comp.glsl keeps of a tile between rounds.
 std::size_t stateBytes(int samples) {
-    return std::size_t(samples + 5) * smallTile_px * smallTile_px * sizeof(int);
+    return std::size_t(samples + 4) * smallTile_px * smallTile_px * sizeof(int);
 }
 
 /// How many edges soft_resolve.comp.glsl takes at once: so few that they take no longer than a round does,
@@ -89,9 +89,11 @@ void TileLayers::prepare(VolumeFrame& frame, Effort effort) {
     for (std::size_t i = 0; i < frame.sources.size(); ++i) {
         const Mesh& mesh = *frame.sources[i].mesh;
         const std::size_t pairs = edgesOf(mesh).pairCount();
-        // Where the light may be cut through, an edge has a part on both of its sides, and a triangle its
-        // cut.
-        records += frame.cutsLight[i] ? 2 * (pairs + mesh.indices().size() / 3) : pairs;
+        const std::size_t triangles = mesh.indices().size() / 3;
+        // Where a flat light may be cut through, an edge has a part on both of its sides, and a triangle its
+        // cut; where a sphere may, each triangle may reach into it.
+        const bool isSphere = frame.constants.lightKind.x == int(LightShape::sphere);
+        records += !frame.cutsLight[i] ? pairs : isSphere ? pairs + triangles : 2 * (pairs + triangles);
     }
     // Few edges of so many matter to a light that is not as large as they are; a storage block holds no more.
     recordCount_ = std::min(records, largestBlock_bytes_ / sizeof(LightEdge) / 32 * 32);

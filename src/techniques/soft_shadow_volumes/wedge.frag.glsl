@@ -18,6 +18,7 @@ void main() {
     Receiver receiver;
     LightFrame frame;
     if (!loadLiftedReceiver(ivec2(gl_FragCoord.xy), receiver) || !makeLightFrame(receiver, frame)) return;
+    if (frame.isInside) return;
     vec3 a, b;
     if (!edgeBeforeLight(frame, receiver.posLight, vec4(aLight, 0.0), vec4(bLight, 0.0), a, b)) return;
     a.xy /= a.z;

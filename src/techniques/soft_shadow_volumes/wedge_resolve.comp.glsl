@@ -24,7 +24,7 @@ void main() {
         if (makeLightFrame(receiver, frame) && horizonSide(frame) >= 0) {
             float hard = 0.5 * (texelFetch(volumeCounts, texel, 0).r + float(eye.blockers));
             vec2 layers = texelFetch(wedgeLayers, texel, 0).rg;
-            seen = clamp(1.0 - hard + layers.x - layers.y, 0.0, 1.0);
+            seen = frame.isInside ? 1.0 : clamp(1.0 - hard + layers.x - layers.y, 0.0, 1.0);
         }
     }
     imageStore(visibility, texel, vec4(seen));
