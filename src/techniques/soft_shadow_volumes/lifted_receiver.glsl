@@ -8,13 +8,18 @@
 const float lift = 4e-6;
 const float steepest = 16.0;  // how many times its height the lift may take along the line of sight
 
+float liftHeight(Receiver receiver) {
+    vec3 p = receiver.posLight;
+    float distance = length(volume.eyeLight.xyz - p);
+    return lift * (max(abs(p.x), max(abs(p.y), abs(p.z))) + volume.eyeLight.w * distance);
+}
+
 float liftedDepth(Receiver receiver) {
     vec3 p = receiver.posLight;
     vec3 toEye = volume.eyeLight.xyz - volume.eyeLight.w * p;
     float distance = length(toEye);
     toEye /= distance;
-    float height = lift * (max(abs(p.x), max(abs(p.y), abs(p.z))) + volume.eyeLight.w * distance);
-    float along = height * min(1.0 / max(dot(receiver.normalLight, toEye), 1e-6), steepest);
+    float along = liftHeight(receiver) * min(1.0 / max(dot(receiver.normalLight, toEye), 1e-6), steepest);
     if (volume.eyeLight.w != 0.0) along = min(along, 0.5 * distance);
     vec4 clip = volume.clipFromLight * vec4(p + along * toEye, 1.0);
     return clip.z / clip.w;
@@ -24,8 +29,7 @@ layout(binding = 4) uniform sampler2D liftedDepths;
 
 // False where the texel's pixel shows no receiver.
 bool loadLiftedReceiver(ivec2 texel, out Receiver receiver) {
-    ivec2 pixel = texel * volume.buffer_px.z;
-    if (!loadReceiver(pixel, receiver)) return false;
-    receiver.posLight = positionLight(vec2(pixel), texelFetch(liftedDepths, texel, 0).r);
+    if (!loadReceiver(texel * volume.buffer_px.z, receiver)) return false;
+    receiver.posLight += liftHeight(receiver) * receiver.normalLight;
     return true;
 }
