@@ -95,8 +95,9 @@ void TileLayers::prepare(VolumeFrame& frame, Effort effort) {
         const bool isSphere = frame.constants.lightKind.x == int(LightShape::sphere);
         records += !frame.cutsLight[i] ? pairs : isSphere ? pairs + triangles : 2 * (pairs + triangles);
     }
-    // Few edges of so many matter to a light that is not as large as they are; a storage block holds no more.
-    recordCount_ = std::min(records, largestBlock_bytes_ / sizeof(LightEdge) / 32 * 32);
+    // Few edges of so many matter to a light that is not as large as they are.
+    const std::size_t room_bytes = std::min(largestBlock_bytes_, std::size_t(effort.edgeMemory_MiB) << 20);
+    recordCount_ = std::min(records, room_bytes / sizeof(LightEdge) / 32 * 32);
     isLimited_ = recordCount_ < records;
     const std::size_t words = (recordCount_ + 31) / 32;
     reserve(lightEdges_, words * 32 * sizeof(LightEdge), "soft-volumes/edges");

@@ -17,6 +17,7 @@ class TileLayers {
     /// How finely, and in what portions.
     struct Effort {
         int samples = 64;                   ///< points of the light, at most `mostSamples`
+        int edgeMemory_MiB = 128;           ///< at most; a storage block of the device may hold less
         int roundWork = softwareRoundWork;  ///< loop iterations after which a tile pauses, from 2,000; no
                                             ///< effect on the result
     };
@@ -38,8 +39,8 @@ class TileLayers {
     /// How many edges were looked at for each texel.
     const gl::Texture& edgeCounts() const { return edgeCounts_; }
     std::size_t size_bytes() const;
-    /// Edges beyond what a storage block of the device holds (2 million at least). If there are any, the
-    /// result is the hard shadow of the light's centre. Waits for the device where there may be.
+    /// Edges beyond what the memory holds. If there are any, the result is the hard shadow of the light's
+    /// centre. Waits for the device where there may be.
     std::size_t edgesWithoutRoom(const VolumeCounter& counter) const;
 
   private:

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* wedgeVertices = "src/techniques/soft_shadow_volumes/wedge.vert.glsl";
 constexpr int verticesPerWedge = 24;
-constexpr GLint halfLocation = 0;
+constexpr GLint halfLocation = 0, eyeLocation = 1;
 
 gl::Texture makeTexture(glm::ivec2 size_px, GLenum format, std::string_view label) {
     return gl::Texture({.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = label});
@@ -73,9 +73,47 @@ void WedgeRaster::drawAll(const VolumeCounter& counter) const {
     glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(offsetof(EyeState, wedges)));
 }
 
-void WedgeRaster::drawMarked(const VolumeFrame& frame, const VolumeCounter& counter) const {
-    // Z-fail (figure 11), which is right wherever the eye is. Nothing is read back: each edge is drawn that
-    // may be a silhouette, and those that are none have no triangles.
+void WedgeRaster::markHalf(int wedge, int half, Counting counting) const {
+    marks_.use();
+    glUniform1i(halfLocation, half);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glEnable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glStencilFunc(GL_ALWAYS, 0, 0xff);
+    const bool automatic = counting == Counting::automatic;
+    // Figure 10: what of the half wedge is before the receiver.
+    if (counting != Counting::zFail) {
+        glUniform1i(eyeLocation, automatic ? -1 : 0);
+        glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_KEEP, GL_INCR_WRAP);
+        glStencilOpSeparate(GL_BACK, GL_KEEP, GL_KEEP, GL_DECR_WRAP);
+        glDrawArrays(GL_TRIANGLES, verticesPerWedge * wedge, verticesPerWedge);
+    }
+    // Figure 11: what is behind, which is right wherever the eye is.
+    if (counting != Counting::zPass) {
+        glUniform1i(eyeLocation, automatic ? 1 : 0);
+        glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_DECR_WRAP, GL_KEEP);
+        glStencilOpSeparate(GL_BACK, GL_KEEP, GL_INCR_WRAP, GL_KEEP);
+        glDrawArrays(GL_TRIANGLES, verticesPerWedge * wedge, verticesPerWedge);
+    }
+    glUniform1i(eyeLocation, 0);
+}
+
+void WedgeRaster::addHalf(int wedge, int half) const {
+    wedges_.use();
+    glUniform1i(halfLocation, half);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDisable(GL_DEPTH_TEST);
+    glEnable(GL_CULL_FACE);
+    glCullFace(GL_FRONT);
+    glStencilFunc(GL_NOTEQUAL, 0, 0xff);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_ZERO);
+    glDrawArrays(GL_TRIANGLES, verticesPerWedge * wedge, verticesPerWedge);
+}
+
+void WedgeRaster::drawMarked(const VolumeFrame& frame, const VolumeCounter& counter,
+                             Counting counting) const {
+    // Nothing is read back: each edge is drawn that may be a silhouette, and those that are none have no
+    // triangles.
     const glm::ivec4 buffer_px = frame.constants.buffer_px;
     counter.drawReceiverDepth(framebuffer_.name(), glm::ivec2(buffer_px));
     gl::beginPass(framebuffer_.name(), {.width_px = buffer_px.x,
@@ -86,25 +124,8 @@ void WedgeRaster::drawMarked(const VolumeFrame& frame, const VolumeCounter& coun
     glEnable(GL_STENCIL_TEST);
     for (int wedge = 0; wedge < int(counter.silhouettes().edgeCount()); ++wedge) {
         for (const int half : {1, -1}) {
-            marks_.use();
-            glUniform1i(halfLocation, half);
-            glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-            glEnable(GL_DEPTH_TEST);
-            glDisable(GL_CULL_FACE);
-            glStencilFunc(GL_ALWAYS, 0, 0xff);
-            glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_DECR_WRAP, GL_KEEP);
-            glStencilOpSeparate(GL_BACK, GL_KEEP, GL_INCR_WRAP, GL_KEEP);
-            glDrawArrays(GL_TRIANGLES, verticesPerWedge * wedge, verticesPerWedge);
-
-            wedges_.use();
-            glUniform1i(halfLocation, half);
-            glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-            glDisable(GL_DEPTH_TEST);
-            glEnable(GL_CULL_FACE);
-            glCullFace(GL_FRONT);
-            glStencilFunc(GL_NOTEQUAL, 0, 0xff);
-            glStencilOp(GL_KEEP, GL_KEEP, GL_ZERO);
-            glDrawArrays(GL_TRIANGLES, verticesPerWedge * wedge, verticesPerWedge);
+            markHalf(wedge, half, counting);
+            addHalf(wedge, half);
         }
     }
 }
@@ -140,7 +161,7 @@ void WedgeRaster::render(const VolumeFrame& frame, const VolumeCounter& counter,
             const GLint unmarked = 0;
             glStencilMask(0xff);
             glClearNamedFramebufferiv(framebuffer_.name(), GL_STENCIL, 0, &unmarked);
-            drawMarked(frame, counter);
+            drawMarked(frame, counter, options.counting);
         } else {
             drawAll(counter);
         }

@@ -15,10 +15,13 @@ class WedgeRaster {
 
     enum class Marking {
         none,     ///< wedges are drawn at once, and a pixel outside of one finds that it adds nothing
-        stencil,  ///< pixels inside each half wedge are marked first (figure 11), so that only they pay
+        stencil,  ///< pixels inside each half wedge are marked first (4.2.7), so that only they pay
     };
     struct Options {
         Marking marking = Marking::none;
+        /// How pixels are marked. Automatic: by Z-pass, but for half wedges that may hold the eye. By Z-pass
+        /// alone these come out wrong.
+        Counting counting = Counting::automatic;
         bool wireframe = false;  ///< outlines the wedges for inspection
     };
 
@@ -38,7 +41,9 @@ class WedgeRaster {
   private:
     void allocate(glm::ivec2 size_px, Options options);
     void drawAll(const VolumeCounter& counter) const;
-    void drawMarked(const VolumeFrame& frame, const VolumeCounter& counter) const;
+    void drawMarked(const VolumeFrame& frame, const VolumeCounter& counter, Counting counting) const;
+    void markHalf(int wedge, int half, Counting counting) const;
+    void addHalf(int wedge, int half) const;
     void drawWireframe(const VolumeCounter& counter, glm::ivec2 size_px) const;
 
     gl::Program wedges_, marks_, resolve_;
