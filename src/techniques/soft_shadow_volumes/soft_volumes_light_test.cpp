@@ -39,7 +39,8 @@ TEST_F(SoftVolumesLightTest, NoSizeOfALightIsHarderThanAnother) {
                 light.shape.radius_m = 0.5f * width_m;
                 light.shape.angle_rad = 2 * std::atan(0.5f * share);
             });
-            const VisibilityMetrics metrics = judge(truth(scene, small), render("soft-volumes", scene, small));
+            const VisibilityMetrics metrics =
+                judge(truth(scene, small), render("soft-volumes", scene, small));
             EXPECT_LE(metrics.mae, 0.005) << int(shape) << " " << share;
             EXPECT_LE(metrics.penumbra_rmse, 0.03) << int(shape) << " " << share;
         }
@@ -59,7 +60,8 @@ Scene figure() {
         for (const glm::vec3& n : part.normals) body.normals.push_back(glm::mat3(bodyFromPart) * n);
     };
     const auto limb = [&](float radius_m, const glm::vec3& from, const glm::vec3& to) {
-        const glm::vec3 along = glm::normalize(to - from), side = glm::normalize(glm::cross(along, {0.1f, 0.2f, 1}));
+        const glm::vec3 along = glm::normalize(to - from),
+                        side = glm::normalize(glm::cross(along, {0.1f, 0.2f, 1}));
         glm::mat4 bodyFromPart(glm::vec4(side, 0), glm::vec4(along, 0), glm::vec4(glm::cross(side, along), 0),
                                glm::vec4(0.5f * (from + to), 1));
         add(studio::cylinder(radius_m, glm::distance(from, to), 24), bodyFromPart);
@@ -131,9 +133,11 @@ TEST_F(SoftVolumesLightTest, CastersThatReachIntoABulbAreNearTheReference) {
         {"half in a box", bulbAt({0.5f, 1.25f, 0.1f}, 0.4f, box({1, 1, 1}))},
         {"in the corner of a box", bulbAt({0.5f, 1.75f, 0.5f}, 0.4f, box({1, 1, 1}))},
         {"a rod through it", bulbAt({0.05f, 1.3f, 0.02f}, 0.5f, studio::cylinder(0.12f, 2.4f, 24))},
-        {"a shade around it, which it is too wide for", bulbAt({0, 1.1f, 0}, 0.45f, studio::cylinder(0.4f, 0.6f, 48, Ends::open))},
+        {"a shade around it, which it is too wide for",
+         bulbAt({0, 1.1f, 0}, 0.45f, studio::cylinder(0.4f, 0.6f, 48, Ends::open))},
         {"a disk through its middle", bulbAt({0, 1.25f, 0}, 0.4f, studio::disk(0.7f, 32))},
-        {"a shade close around it", bulbAt({0, 1.1f, 0}, 0.395f, studio::cylinder(0.4f, 0.6f, 96, Ends::open))},
+        {"a shade close around it",
+         bulbAt({0, 1.1f, 0}, 0.395f, studio::cylinder(0.4f, 0.6f, 96, Ends::open))},
     };
     for (const auto& [name, scene] : cases) {
         const VisibilityMetrics metrics = judge(truth(scene, small), render("soft-volumes", scene, small));

@@ -86,7 +86,8 @@ TEST_F(SoftVolumesTest, MarkingHalfWedgesLeavesOutNothing) {
             // From within a wedge its front is not seen.
             if (eye.x < 1 && counting == std::string_view("z-pass")) continue;
             const Settings marked = {{"method", "wedges"}, {"marking", "stencil"}, {"counting", counting}};
-            EXPECT_LE(shareOfDifferentPixels(unmarked, render("soft-volumes", scene, small, marked), 1e-4f), 0.001)
+            EXPECT_LE(shareOfDifferentPixels(unmarked, render("soft-volumes", scene, small, marked), 1e-4f),
+                      0.001)
                 << counting;
         }
     }
@@ -123,20 +124,21 @@ TEST_F(SoftVolumesTest, TilesOfVeryManyEdgesTakeSeveralRounds) {
 }
 
 TEST_F(SoftVolumesTest, EdgesThatDoNotFitLeaveTheShadowOfTheCenter) {
-    constexpr PictureSize few{64, 48};
-    // 43,200 edges, where a mebibyte holds 16,384.
-    const Scene scene = sheetOfConfetti(120, 0.8f);
+    constexpr PictureSize few{32, 24};
+    // 19,200 edges, where a mebibyte holds 16,384.
+    const Scene scene = sheetOfConfetti(80, 0.8f);
     const auto withoutRoom = [](const LightResult& result) {
         const auto& counts = result.statistics.counts;
-        const auto found = std::ranges::find(counts, "edges without room (shadows are hard)", &Statistic::name);
+        const auto found =
+            std::ranges::find(counts, "edges without room (shadows are hard)", &Statistic::name);
         return found == counts.end() ? 0 : found->value;
     };
     const LightResult small = render("soft-volumes", scene, few, {{"edge_memory", "1"}});
-    EXPECT_EQ(withoutRoom(small), 43'200 - 16'384);
+    EXPECT_EQ(withoutRoom(small), 19'200 - 16'384);
     // The light is over the horizon everywhere, so that nothing but the count at its centre tells.
     EXPECT_EQ(small.visibility.values,
               render("soft-volumes", withLight(scene, shrinkToPoint), few).visibility.values);
-    const LightResult large = render("soft-volumes", scene, few, {{"edge_memory", "3"}});
+    const LightResult large = render("soft-volumes", scene, few, {{"edge_memory", "2"}});
     EXPECT_EQ(withoutRoom(large), 0);
     EXPECT_EQ(large.visibility.values, render("soft-volumes", scene, few).visibility.values);
 }
