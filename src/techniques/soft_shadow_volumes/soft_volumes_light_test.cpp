@@ -108,6 +108,11 @@ TEST_F(SoftVolumesLightTest, FacesThroughTheLightAreNearTheReference) {
     }
 }
 
+Mesh raised(Mesh mesh, float by_m) {
+    for (glm::vec3& p : mesh.positions) p.y += by_m;
+    return mesh;
+}
+
 /// The cylinder's scene with a sphere for a light and this in place of the cylinder, whose middle is at
 /// (0, 1.25, 0).
 Scene bulbAt(const glm::vec3& place, float radius_m, const Mesh& caster) {
@@ -136,8 +141,9 @@ TEST_F(SoftVolumesLightTest, CastersThatReachIntoABulbAreNearTheReference) {
         {"a shade around it, which it is too wide for",
          bulbAt({0, 1.1f, 0}, 0.45f, studio::cylinder(0.4f, 0.6f, 48, Ends::open))},
         {"a disk through its middle", bulbAt({0, 1.25f, 0}, 0.4f, studio::disk(0.7f, 32))},
+        // From below, the shade begins behind what is seen of the bulb.
         {"a shade close around it",
-         bulbAt({0, 1.1f, 0}, 0.395f, studio::cylinder(0.4f, 0.6f, 96, Ends::open))},
+         bulbAt({0, 0.55f, 0}, 0.395f, raised(studio::cylinder(0.4f, 0.6f, 96, Ends::open), -0.65f))},
     };
     for (const auto& [name, scene] : cases) {
         const VisibilityMetrics metrics = judge(truth(scene, small), render("soft-volumes", scene, small));
