@@ -4,16 +4,18 @@
 
     docs/measure-volumes.py build/penumbra
 
-Cost is what `penumbra bench` says of a view at rest: process CPU time on a software driver. A torus stands over a ground,
-under a square light 4 m above it. Writes docs/pictures/volumes-cost-*.svg and prints the numbers.
+Cost is what `penumbra bench` says of a view at rest: process CPU time on a software driver. Edges are those of a torus over
+a ground, more and more finely divided, under a square light 4 m above it; penumbra pixels those of the scene "primitives"
+under larger and larger lights. Writes docs/pictures/volumes-cost-*.svg and prints the numbers.
 """
 import sys
 import tempfile
 
 import measuring
-from measuring import SIZE, cost_ms, penumbra_pixels, plot, torus, write_light, write_torus
+from measuring import cost_ms, penumbra_pixels, plot, torus, write_light, write_torus
 
 LIGHT = (0, 4, 0)
+LARGE = "480x270"
 METHODS = {"soft-volumes: layers": ("soft-volumes", {}),
            "soft-volumes: wedges, as published": ("soft-volumes", {"method": "wedges"}),
            "hard-volumes": ("hard-volumes", {})}
@@ -45,12 +47,11 @@ def main():
                 by_edges[name].append((silhouette_edges(around), cost_ms(technique, file, options=light, **parameters)))
         plot("volumes-cost-edges", "silhouette edges", "CPU time, ms", by_edges)
 
-        file, _ = write_torus(folder, 64)
         for width_m in (0.05, 0.1, 0.2, 0.5, 1, 2):
             light = ["--lights", write_light(folder, width_m)]
-            pixels = penumbra_pixels(file, SIZE, light)
+            pixels = penumbra_pixels("primitives", LARGE, light)
             for name, (technique, parameters) in METHODS.items():
-                by_pixels[name].append((pixels, cost_ms(technique, file, options=light, **parameters)))
+                by_pixels[name].append((pixels, cost_ms(technique, size=LARGE, options=light, **parameters)))
         plot("volumes-cost-penumbra", "penumbra pixels (lights of 0.05 m to 2 m)", "CPU time, ms", by_pixels)
 
 

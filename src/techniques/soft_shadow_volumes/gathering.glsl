@@ -8,9 +8,11 @@ layout(std430, binding = 5) writeonly buffer LightEdges { LightEdge lightEdges[]
 
 layout(location = 0) uniform mat4 lightFromMesh;
 
+// The same, to the last bit, in all programs that ask.
 vec3 positionLight(uint vertex) {
     uint i = 3u * vertex;
-    return (lightFromMesh * vec4(positions[i], positions[i + 1u], positions[i + 2u], 1.0)).xyz;
+    precise vec3 posLight = (lightFromMesh * vec4(positions[i], positions[i + 1u], positions[i + 2u], 1.0)).xyz;
+    return posLight;
 }
 
 // The same for all three edges of the face, to the last bit, so that they agree on which side a receiver is.
