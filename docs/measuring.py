@@ -115,9 +115,9 @@ def plot(name, x_title, y_title, curves):
         line = " ".join(f"{x(a):.1f},{y(b):.1f}" for a, b in points)
         parts.append(f'<polyline points="{line}" fill="none" stroke="{color}" stroke-width="2"/>')
         parts += [f'<circle cx="{x(a):.1f}" cy="{y(b):.1f}" r="3.5" fill="{color}"/>' for a, b in points]
-        below = points[-1][1] > points[0][1]
-        line_y = height - bottom - 10 - 16 * k if below else top + 16 + 16 * k
-        parts.append(f'<text x="{width - right - 10}" y="{line_y}" text-anchor="end" fill="{color}">{legend}</text>')
+        grows = points[-1][1] > points[0][1]  # then the upper left is free, else the upper right
+        anchor, legend_x = ("start", left + 10) if grows else ("end", width - right - 10)
+        parts.append(f'<text x="{legend_x}" y="{top + 16 + 16 * k}" text-anchor="{anchor}" fill="{color}">{legend}</text>')
     (PICTURES / f"{name}.svg").write_text("\n".join(parts + ["</svg>", ""]))
     for legend, points in curves.items():
         print(f"{name}, {legend}: " + "  ".join(f"({a:,.6g}: {b:,.4g})" for a, b in points), flush=True)

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // How many layers of surface lie before each point of the light, as a receiver sees them: the edges between the light's
-// centre and a point change the count (README.md, "Counting layers"). Requires light_area.glsl.
+// centre and a point change the count (README.md, "Counting layers"). Requires light_area.glsl and light_points.glsl.
 //
 // SAMPLES: the number of points of the light at which layers are counted.
 #ifndef SAMPLES
 #define SAMPLES 64
 #endif
-
-// xy: place in unit space; z: rank from the centre; w: direction in turns, rising
-layout(std430, binding = 4) readonly buffer Samples { vec4 samples[]; };
 
 // A sphere shows its directions, not the area of its disk. Above this tangent (of some 9 degrees) the two differ by more
 // than a hundredth, and samples are placed by solid angle.
@@ -73,14 +70,6 @@ int changes[SAMPLES];
 int leastChange = 2;      // of any edge: how many layers the thinnest blocker has
 int meanChangeFixed = 0;  // exact mean over the light, times fixedOne
 int edgesCounted = 0;
-
-// Whether the way from the light's centre to `s` crosses the edge from `a` to `b`. What is asked of each end is asked in
-// the same way of the other edges there, so that one of them is crossed and no more.
-bool isCrossed(vec2 a, vec2 b, float turn, vec2 s) {
-    bool isBetween = (a.x * s.y - a.y * s.x >= 0.0) != (b.x * s.y - b.y * s.x >= 0.0);
-    float beyond = (b.x - a.x) * (s.y - a.y) - (b.y - a.y) * (s.x - a.x);
-    return isBetween && beyond * turn < 0.0;
-}
 
 float directionOf(vec2 d) { return fract(atan(d.y, d.x) / lightTau); }
 

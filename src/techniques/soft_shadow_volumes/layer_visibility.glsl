@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The share of the light that no layer hides. Requires layer_counts.glsl.
 
-layout(std430, binding = 5) readonly buffer Radiances { vec4 radiances[]; };
-
 vec3 visibilityOf(LightFrame frame, int atCenter) {
     vec3 seen = vec3(0.0), all = vec3(0.0);
     int points = 0, covered = 0, layerSum = 0, least = 1 << 20, most = 0;

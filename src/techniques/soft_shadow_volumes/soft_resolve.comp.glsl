@@ -13,6 +13,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 #include "src/techniques/soft_shadow_volumes/lifted_receiver.glsl"
 #include "src/techniques/soft_shadow_volumes/light_area.glsl"
+#include "src/techniques/soft_shadow_volumes/light_points.glsl"
 #include "src/techniques/soft_shadow_volumes/tile_shaft.glsl"
 #include "src/techniques/soft_shadow_volumes/layer_counts.glsl"
 #include "src/techniques/soft_shadow_volumes/layer_visibility.glsl"

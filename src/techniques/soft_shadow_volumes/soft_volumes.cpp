@@ -37,7 +37,7 @@ void SoftVolumes::describe(ParameterVisitor& visitor) {
         method_, methods);
     visitor.integer(
         {.name = "samples", .help = "points of the light at which overlapping blockers are told apart"},
-        effort_.samples, {16, TileLayers::mostSamples});
+        effort_.samples, {16, LightPoints::most});
     static constexpr std::array<std::string_view, 3> sizes = {"full", "half", "quarter"};
     visitor.choice(
         {.name = "v_buffer", .help = "width and height of the V-buffer, as a part of the picture's"},
@@ -152,8 +152,9 @@ void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     if (pixelsPerTexel > 1) allocateVBuffer(glm::ivec2(frame.constants.buffer_px), format);
     const GLuint target = pixelsPerTexel > 1 ? vBuffer_.name() : out.texture();
     if (wedges) {
-        wedges_.render(frame, counter_, {WedgeRaster::Marking(marking_), Counting(counting_), wireframe_},
-                       target, format, timers_);
+        wedges_.render(frame, inputs.light, counter_,
+                       {WedgeRaster::Marking(marking_), Counting(counting_), wireframe_}, target, format,
+                       timers_);
     } else {
         layers_.render(frame, inputs.light, counter_, target, format, timers_);
     }

@@ -155,6 +155,35 @@ TEST_F(SoftVolumesLightTest, CastersThatReachIntoABulbAreNearTheReference) {
     }
 }
 
+// The red half of the light is hidden first, then the green one: a half-plane has one silhouette from
+// anywhere on the light, so that published wedges are right about it, too.
+TEST_F(SoftVolumesLightTest, WedgesOfTexturedLightsAreTheLayersWhereBothAreRight) {
+    Scene scene = makeBuiltin("half-plane");
+    Picture halves{.name = "halves", .width_px = 32, .height_px = 1, .rgba = {}};
+    for (int x = 0; x < halves.width_px; ++x) {
+        const bool left = x < halves.width_px / 2;
+        halves.rgba.insert(halves.rgba.end(),
+                           {std::uint8_t(left ? 255 : 0), std::uint8_t(left ? 0 : 255), 99, 255});
+    }
+    scene.pictures.push_back(std::move(halves));
+    scene.textures.push_back({.picture = int(scene.pictures.size()) - 1});
+    const int texture = int(scene.textures.size()) - 1;
+    scene = withLight(std::move(scene), [texture](Light& light) { light.texture = texture; });
+    const LightResult layers = render("soft-volumes", scene, small);
+    const LightResult wedges = render("soft-volumes", scene, small, {{"method", "wedges"}});
+    ASSERT_EQ(wedges.visibility.channels, 3);
+    int differentChannels = 0;
+    for (std::size_t i = 0; i < wedges.visibility.values.size(); i += 3) {
+        const float* of = &wedges.visibility.values[i];
+        // Their points differ in number: two of 128, and of the 64 that a channel has there.
+        for (std::size_t c = 0; c < 3; ++c)
+            ASSERT_NEAR(of[c], layers.visibility.values[i + c], 2.0 / 64) << i;
+        differentChannels += std::abs(of[0] - of[1]) > 0.5f;
+    }
+    EXPECT_GT(differentChannels, 500);
+    EXPECT_LE(judge(truth(scene, small), wedges).penumbra_rmse, 0.03);
+}
+
 TEST_F(SoftVolumesLightTest, TexturedLightsHaveThreeVisibilities) {
     const Scene scene = makeBuiltin("textured-window");
     const LightResult result = render("soft-volumes", scene, size);

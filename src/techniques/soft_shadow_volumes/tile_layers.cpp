@@ -3,11 +3,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <string>
-#include <vector>
 
 #include "src/geometry/edge_mesh.h"
 
@@ -28,29 +25,6 @@ void bindStorage(GLuint block, const gl::Buffer& buffer) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block, buffer.name());
 }
 
-/// Points that fill the unit square or disk evenly, none on a line with many others: whatever edge crosses
-/// the light meets them one after the other.
-std::vector<glm::vec4> spreadSamples(int count, bool onSquare) {
-    const double golden = glm::golden_ratio<double>() - 1;
-    std::vector<glm::vec4> samples;
-    for (int i = 0; i < count; ++i) {
-        const double along = (i + 0.5) / count;
-        const double turn = (i + 0.5) * golden - std::floor((i + 0.5) * golden);
-        glm::dvec2 place(2 * along - 1, 2 * turn - 1);
-        if (!onSquare) {
-            place = std::sqrt(along) * glm::dvec2(std::cos(glm::two_pi<double>() * turn),
-                                                  std::sin(glm::two_pi<double>() * turn));
-        }
-        const double direction = std::atan2(place.y, place.x) / glm::two_pi<double>();
-        samples.emplace_back(place, along, direction - std::floor(direction));
-    }
-    // Edges look up the points behind them by direction.
-    std::ranges::sort(samples, {}, &glm::vec4::w);
-    return samples;
-}
-
-/// A textured light has no exact area to correct its samples with.
-constexpr int texturedFactor = 2;
 constexpr int smallTile_px = 8;
 constexpr int largeTile_px = 32;
 /// The lists of large tiles, which are made larger rather than exceed this.
@@ -77,7 +51,7 @@ TileLayers::TileLayers(Device& device)
       cuts_(device_.shaders, {shader("soft_cuts")}),
       bounds_(device_.shaders, {shader("soft_bounds")}),
       lists_(device_.shaders, {shader("soft_lists")}),
-      radiance_(device_.shaders, {shader("soft_radiance")}) {
+      points_(device) {
     GLint64 largest_bytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest_bytes);
     largestBlock_bytes_ = std::size_t(largest_bytes);
@@ -126,32 +100,12 @@ void TileLayers::prepare(VolumeFrame& frame, Effort effort) {
     }
 }
 
-void TileLayers::placeSamples(const AreaLight& light) {
-    const bool onSquare = light.shape == LightShape::rect;
-    sampleCount_ = light.radianceTexture != 0 ? std::min(texturedFactor * effort_.samples, mostSamples)
-                                              : effort_.samples;
-    if (placedSamples_ != sampleCount_ || placedOnSquare_ != onSquare) {
-        const std::vector<glm::vec4> places = spreadSamples(sampleCount_, onSquare);
-        samplePlaces_ = gl::Buffer(std::as_bytes(std::span(places)), "soft-volumes/samples");
-        sampleRadiances_ = gl::Buffer(std::as_bytes(std::span(places)), "soft-volumes/radiances");
-        placedSamples_ = sampleCount_;
-        placedOnSquare_ = onSquare;
-    }
-    bindStorage(4, samplePlaces_);
-    bindStorage(5, sampleRadiances_);
-    if (light.radianceTexture != 0) {
-        radiance_.use();
-        glBindTextureUnit(3, light.radianceTexture);
-        glUniform1i(0, sampleCount_);
-        glDispatchCompute(GLuint(sampleCount_ + 63) / 64, 1, 1);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    }
-    if (resolveSamples_ != sampleCount_) {
-        resolve_ = gl::Program(device_.shaders, {shader("soft_resolve")},
-                               {"SAMPLES " + std::to_string(sampleCount_),
-                                "EDGES_AT_ONCE " + std::to_string(edgesAtOnce(sampleCount_))});
-        resolveSamples_ = sampleCount_;
-    }
+void TileLayers::makeResolve() {
+    if (resolveSamples_ == points_.count()) return;
+    resolve_ = gl::Program(device_.shaders, {shader("soft_resolve")},
+                           {"SAMPLES " + std::to_string(points_.count()),
+                            "EDGES_AT_ONCE " + std::to_string(edgesAtOnce(points_.count()))});
+    resolveSamples_ = points_.count();
 }
 
 void TileLayers::gatherEdges(const VolumeFrame& frame, const VolumeCounter& counter) {
@@ -207,18 +161,19 @@ void TileLayers::resolve(const VolumeFrame& frame, const VolumeCounter& counter)
     // A round does `roundWork`, unless nothing is left; all there may be is every edge, for every point. The
     // shader counts 16 besides for an edge, and 32 for looking through 64 words of a list, which it does once
     // more in each round.
-    const double work = double(recordCount_) * (sampleCount_ + 16) + 32.0 * (tiles.w / 64 + 1);
+    const double work = double(recordCount_) * (points_.count() + 16) + 32.0 * (tiles.w / 64 + 1);
     const int rounds = 1 + int(work / (effort_.roundWork - 32));
     const int fitting =
-        std::max(int(largestStates_bytes / (stateBytes(sampleCount_) * std::size_t(tiles.x))), 1);
+        std::max(int(largestStates_bytes / (stateBytes(points_.count()) * std::size_t(tiles.x))), 1);
     const int bandRows = rounds > 1 ? std::min(fitting, rows) : rows;
     const std::size_t bandTiles = std::size_t(bandRows) * std::size_t(tiles.x);
-    reserve(states_, rounds > 1 ? bandTiles * stateBytes(sampleCount_) : 0, "soft-volumes/states");
+    reserve(states_, rounds > 1 ? bandTiles * stateBytes(points_.count()) : 0, "soft-volumes/states");
     // One round more than there are: none is asked for, but its arguments are within reach of the shader.
     const GLuint lists = 3 * GLuint(rounds + 1);
     reserve(rounds_, (lists + 2 * bandTiles) * sizeof(GLuint), "soft-volumes/rounds");
 
     resolve_.use();
+    points_.bind();
     counter.bind(3, 2);
     edgeCounts_.bindImage(1, GL_WRITE_ONLY);
     bindStorage(6, states_);
@@ -252,7 +207,8 @@ void TileLayers::render(const VolumeFrame& frame, const AreaLight& light, const 
     {
         const auto pass = timers.pass("soft-volumes/edges");
         gatherEdges(frame, counter);
-        placeSamples(light);
+        points_.place(light, effort_.samples);
+        makeResolve();
     }
     {
         const auto pass = timers.pass("soft-volumes/tile lists");

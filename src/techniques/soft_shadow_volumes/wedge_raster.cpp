@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* wedgeVertices = "src/techniques/soft_shadow_volumes/wedge.vert.glsl";
 constexpr int verticesPerWedge = 24;
-constexpr GLint halfLocation = 0, eyeLocation = 1;
+constexpr GLint halfLocation = 0, eyeLocation = 1, pointsLocation = 2;
 
 gl::Texture makeTexture(glm::ivec2 size_px, GLenum format, std::string_view label) {
     return gl::Texture({.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = label});
@@ -30,7 +30,8 @@ WedgeRaster::WedgeRaster(Device& device)
       marks_(device.internals().shaders,
              {wedgeVertices, "src/techniques/soft_shadow_volumes/wedge_mark.frag.glsl"}),
       resolve_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/wedge_resolve.comp.glsl"}),
-      noVertices_(gl::makeFloatVertexArray()) {}
+      noVertices_(gl::makeFloatVertexArray()),
+      points_(device) {}
 
 void WedgeRaster::countAsBlockers(VolumeFrame& frame) {
     for (std::size_t i = 0; i < frame.sources.size(); ++i) {
@@ -40,16 +41,23 @@ void WedgeRaster::countAsBlockers(VolumeFrame& frame) {
     }
 }
 
-void WedgeRaster::allocate(glm::ivec2 size_px, Options options) {
-    if (!isOfSize(layers_, size_px)) {
+void WedgeRaster::allocate(glm::ivec2 size_px, bool isTextured, Options options) {
+    if (!isOfSize(layers_, size_px) || isTextured != (colors_.name() != 0)) {
         layers_ = {};
         evaluations_ = {};
+        colors_ = {};
         depthAndMarks_ = {};
         layers_ = makeTexture(size_px, GL_RG32F, "soft-volumes/V-buffer layers");
         evaluations_ = makeTexture(size_px, GL_R32F, "soft-volumes/wedges a pixel");
         depthAndMarks_ = makeTexture(size_px, GL_DEPTH32F_STENCIL8, "soft-volumes/marks");
-        framebuffer_ =
-            gl::Framebuffer({&layers_, &evaluations_}, &depthAndMarks_, "soft-volumes/V-buffer layers");
+        if (isTextured) {
+            colors_ = makeTexture(size_px, GL_RGBA32F, "soft-volumes/V-buffer colours");
+            framebuffer_ = gl::Framebuffer({&layers_, &evaluations_, &colors_}, &depthAndMarks_,
+                                           "soft-volumes/V-buffer layers");
+        } else {
+            framebuffer_ =
+                gl::Framebuffer({&layers_, &evaluations_}, &depthAndMarks_, "soft-volumes/V-buffer layers");
+        }
     }
     if (!options.wireframe) {
         wireframe_ = {};
@@ -143,10 +151,12 @@ void WedgeRaster::drawWireframe(const VolumeCounter& counter, glm::ivec2 size_px
     glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(offsetof(EyeState, wedges)));
 }
 
-void WedgeRaster::render(const VolumeFrame& frame, const VolumeCounter& counter, Options options,
-                         GLuint target, GLenum format, gl::PassTimers& timers) {
+void WedgeRaster::render(const VolumeFrame& frame, const AreaLight& light, const VolumeCounter& counter,
+                         Options options, GLuint target, GLenum format, gl::PassTimers& timers) {
     const glm::ivec2 size_px(frame.constants.buffer_px);
-    allocate(size_px, options);
+    const bool isTextured = light.radianceTexture != 0;
+    allocate(size_px, isTextured, options);
+    if (isTextured) points_.place(light, LightPoints::most / 2);
     glBindVertexArray(noVertices_.name());
     counter.silhouettes().bindEdges(0);
     counter.bindLayersEach(1);
@@ -156,7 +166,11 @@ void WedgeRaster::render(const VolumeFrame& frame, const VolumeCounter& counter,
         const auto pass = timers.pass("soft-volumes/wedges");
         gl::beginPass(framebuffer_.name(), {.width_px = size_px.x, .height_px = size_px.y});
         const std::array<float, 4> zero{};
-        for (int i = 0; i < 2; ++i) glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, i, zero.data());
+        for (int i = 0; i < (isTextured ? 3 : 2); ++i)
+            glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, i, zero.data());
+        wedges_.use();
+        glUniform1i(pointsLocation, isTextured ? points_.count() : 0);
+        if (isTextured) points_.bind();
         if (options.marking == Marking::stencil) {
             const GLint unmarked = 0;
             glStencilMask(0xff);
@@ -174,6 +188,7 @@ void WedgeRaster::render(const VolumeFrame& frame, const VolumeCounter& counter,
     resolve_.use();
     counter.bind(3, 2);
     layers_.bind(5);
+    if (isTextured) colors_.bind(6);
     glBindImageTexture(0, target, 0, GL_FALSE, 0, GL_WRITE_ONLY, format);
     gl::dispatchPixels(size_px.x, size_px.y);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
@@ -182,6 +197,7 @@ void WedgeRaster::render(const VolumeFrame& frame, const VolumeCounter& counter,
 void WedgeRaster::inspect(InspectionVisitor& visitor) const {
     if (layers_.name() == 0) return;
     visitor.texture({.name = "additive and subtractive layers", .texture = layers_.name()});
+    if (colors_.name() != 0) visitor.texture({.name = "layers of each channel", .texture = colors_.name()});
     visitor.texture({.name = "wedges a pixel", .texture = evaluations_.name(), .white = 16});
     if (wireframe_.name() != 0)
         visitor.texture({.name = "wedges as wireframe", .texture = wireframe_.name()});

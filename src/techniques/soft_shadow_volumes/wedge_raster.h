@@ -5,6 +5,7 @@
 
 #include "src/gl/pass_timers.h"
 #include "src/gl/texture.h"
+#include "src/techniques/soft_shadow_volumes/light_points.h"
 #include "src/techniques/soft_shadow_volumes/volume_counter.h"
 
 namespace penumbra {
@@ -31,15 +32,15 @@ class WedgeRaster {
 
     /// Writes visibility into `target`, a texture of the V-buffer's size. The frame's constants, the view and
     /// what `counter` counted must be there.
-    void render(const VolumeFrame& frame, const VolumeCounter& counter, Options options, GLuint target,
-                GLenum format, gl::PassTimers& timers);
+    void render(const VolumeFrame& frame, const AreaLight& light, const VolumeCounter& counter,
+                Options options, GLuint target, GLenum format, gl::PassTimers& timers);
 
     /// The V-buffer's additive and subtractive layer; how many (half) wedges each texel was evaluated for;
     /// and the last outlines, where they were asked for.
     void inspect(InspectionVisitor& visitor) const;
 
   private:
-    void allocate(glm::ivec2 size_px, Options options);
+    void allocate(glm::ivec2 size_px, bool isTextured, Options options);
     void drawAll(const VolumeCounter& counter) const;
     void drawMarked(const VolumeFrame& frame, const VolumeCounter& counter, Counting counting) const;
     void markHalf(int wedge, int half, Counting counting) const;
@@ -48,7 +49,8 @@ class WedgeRaster {
 
     gl::Program wedges_, marks_, resolve_;
     gl::VertexArrayHandle noVertices_;
-    gl::Texture layers_, evaluations_, depthAndMarks_, wireframe_;
+    LightPoints points_;
+    gl::Texture layers_, evaluations_, colors_, depthAndMarks_, wireframe_;
     gl::Framebuffer framebuffer_, wireframeFramebuffer_;
 };
 
