@@ -80,15 +80,16 @@ TEST_F(SoftVolumesTest, MarkingHalfWedgesLeavesOutNothing) {
         glm::vec3 from, at;
     };
     // The second along the penumbra of the lower box's edge, in one of its half wedges.
-    for (const auto& [from, at] :
+    for (const Look& look :
          {Look{{3, 3, 5}, {0.2f, 0, -0.3f}}, Look{{1.65f, 0.03f, 0.4f}, {1.65f, 0, -0.6f}}}) {
         const Scene scene = withMoment(makeBuiltin("two-boxes"), [&](SceneMoment& moment) {
-            moment.cameras.front().worldFromCamera = glm::inverse(glm::lookAt(from, at, glm::vec3(0, 1, 0)));
+            moment.cameras.front().worldFromCamera =
+                glm::inverse(glm::lookAt(look.from, look.at, glm::vec3(0, 1, 0)));
         });
         const LightResult unmarked = render("soft-volumes", scene, small, wedges);
         for (const char* counting : {"auto", "z-pass", "z-fail"}) {
             // From within a wedge its front is not seen.
-            if (from.y < 1 && counting == std::string_view("z-pass")) continue;
+            if (look.from.y < 1 && counting == std::string_view("z-pass")) continue;
             const Settings marked = {{"method", "wedges"}, {"marking", "stencil"}, {"counting", counting}};
             EXPECT_LE(shareOfDifferentPixels(unmarked, render("soft-volumes", scene, small, marked), 1e-4f),
                       0.001)

@@ -161,7 +161,8 @@ void TileLayers::resolve(const VolumeFrame& frame, const VolumeCounter& counter)
     // A round does `roundWork`, unless nothing is left; all there may be is every edge, for every point. The
     // shader counts 16 besides for an edge, and 32 for looking through 64 words of a list, which it does once
     // more in each round.
-    const double work = double(recordCount_) * (points_.count() + 16) + 32.0 * (tiles.w / 64 + 1);
+    const int looks = tiles.w / 64 + 1;
+    const double work = double(recordCount_) * (points_.count() + 16) + 32.0 * looks;
     const int rounds = 1 + int(work / (effort_.roundWork - 32));
     const int fitting =
         std::max(int(largestStates_bytes / (stateBytes(points_.count()) * std::size_t(tiles.x))), 1);
