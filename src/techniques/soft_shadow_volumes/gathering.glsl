@@ -8,9 +8,11 @@ layout(std430, binding = 5) writeonly buffer LightEdges { LightEdge lightEdges[]
 
 layout(location = 0) uniform mat4 lightFromMesh;
 
+// The same, to the last bit, in all programs that ask.
 vec3 positionLight(uint vertex) {
     uint i = 3u * vertex;
-    return (lightFromMesh * vec4(positions[i], positions[i + 1u], positions[i + 2u], 1.0)).xyz;
+    precise vec3 posLight = (lightFromMesh * vec4(positions[i], positions[i + 1u], positions[i + 2u], 1.0)).xyz;
+    return posLight;
 }
 
 // The same for all three edges of the face, to the last bit, so that they agree on which side a receiver is.
@@ -29,6 +31,18 @@ vec4 facePlane(uint face) {
 void gather(LightEdge edge) {
     uint place = atomicAdd(eye.edgeCount, 1u);
     if (place < 32u * uint(volume.tiles.w)) lightEdges[place] = edge;
+}
+
+// Whether a face may reach into a spherical light. The same, to the last bit, for all who ask about this face. More do
+// than touch it, by a thousandth at least: for those nothing is lost but time.
+bool mayReachIntoSphere(uint face) {
+    uint first = 3u * (face >> 1);
+    vec3 a = positionLight(indices[first]), b = positionLight(indices[first + 1u]), c = positionLight(indices[first + 2u]);
+    float radius = 1.001 * volume.lightSize.x;
+    bool isBeside = any(greaterThan(min(min(a, b), c), vec3(radius))) || any(lessThan(max(max(a, b), c), vec3(-radius)));
+    vec4 plane = facePlane(face);
+    precise float square = (plane.x * plane.x + plane.y * plane.y) + plane.z * plane.z;
+    return !isBeside && plane.w * plane.w <= radius * radius * square;
 }
 
 // Where an edge whose ends lie on different sides meets the plane of a flat light. The same, to the last bit, for all

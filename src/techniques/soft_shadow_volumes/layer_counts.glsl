@@ -1,21 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 // How many layers of surface lie before each point of the light, as a receiver sees them: the edges between the light's
-// centre and a point change the count (README.md, "Counting layers"). Requires light_area.glsl.
+// centre and a point change the count (README.md, "Counting layers"). Requires light_area.glsl and light_points.glsl.
 //
 // SAMPLES: the number of points of the light at which layers are counted.
 #ifndef SAMPLES
 #define SAMPLES 64
 #endif
 
-// xy: place in unit space; z: rank from the centre; w: direction in turns, rising
-layout(std430, binding = 4) readonly buffer Samples { vec4 samples[]; };
-
 // A sphere shows its directions, not the area of its disk. Above this tangent (of some 9 degrees) the two differ by more
 // than a hundredth, and samples are placed by solid angle.
 const float wideLight = 0.15;
 
+// What the points are spread over: all of the light; or, where most of it is below the receiver's horizon and few of its
+// points would be left, the box around the rest.
+bool isSliver = false;
+vec2 boxMiddle = vec2(0.0);
+mat2 boxFromPoints = mat2(1.0);
+
+void spreadPoints(LightFrame frame) {
+    vec2 up = frame.horizon.xy, slope = abs(up);
+    float reach = horizonReach(frame);
+    // Of a textured light no more than must be: there points stand for what is around them.
+    isSliver = horizonSide(frame) == 0 && frame.horizon.z < (volume.lightKind.w == 1 ? -0.6 * reach : 0.0);
+    if (!isSliver) return;
+    if (isSquareLight()) {
+        // How far down from the highest corner each of its sides is above the horizon.
+        vec2 low = max((-frame.horizon.z - slope.yx) / max(slope, 1e-30), -1.0);
+        vec2 corner = vec2(up.x < 0.0 ? -1.0 : 1.0, up.y < 0.0 ? -1.0 : 1.0);
+        boxMiddle = corner * 0.5 * (1.0 + low);
+        boxFromPoints = mat2(0.5 * (1.0 - low.x), 0.0, 0.0, 0.5 * (1.0 - low.y));
+    } else {
+        // From the horizon to the disk's highest point, and as wide as the chord.
+        float low = -frame.horizon.z / reach;
+        vec2 axis = up / reach;
+        boxMiddle = axis * 0.5 * (1.0 + low);
+        boxFromPoints = mat2(axis * 0.5 * (1.0 - low), vec2(-axis.y, axis.x) * sqrt(max(1.0 - low * low, 0.0)));
+    }
+}
+
 vec2 samplePlace(LightFrame frame, int i) {
     vec4 s = samples[i];
+    // What a disk's points have been made from fills a square.
+    if (isSliver) return boxMiddle + boxFromPoints * (isSquareLight() ? s.xy : 2.0 * s.zw - 1.0);
     if (frame.tangent <= wideLight) return s.xy;
     // Uniform in solid angle: the cosine falls linearly with the share of the cone.
     float tangent2 = frame.tangent * frame.tangent;
@@ -23,11 +49,17 @@ vec2 samplePlace(LightFrame frame, int i) {
     return s.xy * sqrt((1.0 / (cosine * cosine) - 1.0) / (s.z * tangent2));
 }
 
-// The light's point that is highest over the receiver's horizon.
-vec2 topPlace(LightFrame frame) {
-    vec2 up = frame.horizon.xy;
-    if (isSquareLight()) return vec2(up.x < 0.0 ? -1.0 : 1.0, up.y < 0.0 ? -1.0 : 1.0);
-    return up == vec2(0.0) ? vec2(1.0, 0.0) : normalize(up);
+// Whether a point is on the light and above the horizon.
+bool isInView(LightFrame frame, vec2 s) {
+    bool isOnLight = !isSliver || isSquareLight() || dot(s, s) <= 1.0;
+    return isOnLight && isAboveHorizon(frame, s);
+}
+
+// Points of a sliver are spread over an area, where those of a wide light stand for solid angles.
+float sampleWeight(LightFrame frame, vec2 s) {
+    if (!isSliver || frame.tangent <= wideLight) return 1.0;
+    float longer2 = 1.0 + frame.tangent * frame.tangent * dot(s, s);
+    return inversesqrt(longer2) / longer2;
 }
 
 const float fixedOne = 1048576.0;  // integers add up to the same in any order
@@ -36,17 +68,8 @@ const float fixedOne = 1048576.0;  // integers add up to the same in any order
 // which some compilers copy.
 int changes[SAMPLES];
 int leastChange = 2;      // of any edge: how many layers the thinnest blocker has
-int changeAtTop = 0;      // at the light's highest point over the horizon
 int meanChangeFixed = 0;  // exact mean over the light, times fixedOne
 int edgesCounted = 0;
-
-// Whether the way from the light's centre to `s` crosses the edge from `a` to `b`. What is asked of each end is asked in
-// the same way of the other edges there, so that one of them is crossed and no more.
-bool isCrossed(vec2 a, vec2 b, float turn, vec2 s) {
-    bool isBetween = (a.x * s.y - a.y * s.x >= 0.0) != (b.x * s.y - b.y * s.x >= 0.0);
-    float beyond = (b.x - a.x) * (s.y - a.y) - (b.y - a.y) * (s.x - a.x);
-    return isBetween && beyond * turn < 0.0;
-}
 
 float directionOf(vec2 d) { return fract(atan(d.y, d.x) / lightTau); }
 
@@ -87,13 +110,14 @@ bool seeEdge(LightFrame frame, Receiver receiver, LightEdge edge, out SeenEdge s
 
 // Adds what an edge changes on the way from the light's centre to each of its points. Returns how many points it looked
 // at.
-uint addEdge(LightFrame frame, vec2 top, SeenEdge edge) {
+uint addEdge(LightFrame frame, SeenEdge edge) {
     vec2 a = edge.a, b = edge.b;
     leastChange = min(leastChange, abs(edge.change));
     meanChangeFixed += edge.change * int(shareBeyond(a, b) * fixedOne + 0.5);
-    // Only points in the directions between the edge's ends can lie behind it; they follow each other in the list.
+    // Only points in the directions between the edge's ends can lie behind it; they follow each other in the list, unless
+    // they have been put elsewhere.
     float first = directionOf(edge.turn > 0.0 ? a : b), last = directionOf(edge.turn > 0.0 ? b : a);
-    float span = fract(last - first) + 2.0 * directionRounding;
+    float span = isSliver ? 1.0 : fract(last - first) + 2.0 * directionRounding;
     first = fract(first - directionRounding);
     int start = firstSampleFrom(first);
     int n = 0;
@@ -102,7 +126,82 @@ uint addEdge(LightFrame frame, vec2 top, SeenEdge edge) {
         if (fract(samples[i].w - first) > span) break;
         changes[i] += isCrossed(a, b, edge.turn, samplePlace(frame, i)) ? edge.change : 0;
     }
-    changeAtTop += isCrossed(a, b, edge.turn, top) ? edge.change : 0;
     ++edgesCounted;
     return uint(n);
+}
+
+bool isBefore(vec3 a, vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
+
+// The plane through the receiver and two corners of a face, turned the same way whichever of the two comes first.
+vec3 sidePlane(vec3 a, vec3 b) {
+    bool isOrdered = isBefore(a, b);
+    vec3 from = isOrdered ? a : b, to = isOrdered ? b : a;
+    precise vec3 normal = vec3(from.y * to.z - from.z * to.y, from.z * to.x - from.x * to.z, from.x * to.y - from.y * to.x);
+    return normal;
+}
+
+// A face that reaches into a spherical light, in unit space, and the sphere there. A way to the light's point `s` goes on
+// through it: dot with (s, 1) to apply what is said of ways.
+struct SeenFace {
+    vec3 ab, bc, ca;    // planes through the receiver and its edges
+    bvec3 isTurned;     // which of these are walked against their order
+    vec3 alongPlane;    // how far a way leads along the normal of the face's plane
+    float atReceiver;   // the plane at the receiver
+    vec3 fromCenter;    // dot of a way with the receiver's place
+    vec2 square;        // of a way's length, dot with (s^2, 1)
+    float outside;      // square of the receiver's distance less that of the radius
+};
+
+SeenFace seeFace(LightFrame frame, vec3 posLight, LightEdge record) {
+    mat3 unitFromLight = transpose(mat3(frame.x, frame.y, frame.z));
+    vec3 a = unitFromLight * (record.aLight.xyz - posLight), b = unitFromLight * (record.bLight.xyz - posLight),
+         c = unitFromLight * (record.planes[0].xyz - posLight);
+    // The rows of unitFromLight are at right angles to each other.
+    vec3 lengths2 = 1.0 / vec3(dot(frame.x, frame.x), dot(frame.y, frame.y), dot(frame.z, frame.z));
+    SeenFace face;
+    face.ab = sidePlane(a, b);
+    face.bc = sidePlane(b, c);
+    face.ca = sidePlane(c, a);
+    face.isTurned = bvec3(!isBefore(a, b), !isBefore(b, c), !isBefore(c, a));
+    face.alongPlane = unitFromLight * record.planes[1].xyz * lengths2;
+    face.atReceiver = dot(record.planes[1], vec4(posLight, 1.0));
+    face.fromCenter = unitFromLight * posLight * lengths2;
+    face.square = lengths2.xz;
+    face.outside = dot(posLight, posLight) - volume.lightSize.x * volume.lightSize.x;
+    return face;
+}
+
+// Whether the line through the receiver and the light's point `s` meets the face.
+bool isInFace(SeenFace face, vec2 s) {
+    vec3 way = vec3(s, 1.0);
+    bvec3 isLeft = bvec3((dot(face.ab, way) >= 0.0) != face.isTurned.x, (dot(face.bc, way) >= 0.0) != face.isTurned.y,
+                         (dot(face.ca, way) >= 0.0) != face.isTurned.z);
+    return isLeft.x == isLeft.y && isLeft.y == isLeft.z;
+}
+
+// Whether it hides the point `s`. The way there ends on the sphere's near side; from within it, on the far side.
+bool isHidden(SeenFace face, vec2 s) {
+    float middle = -dot(face.fromCenter, vec3(s, 1.0)), square = dot(face.square, vec2(dot(s, s), 1.0));
+    float end = middle + sqrt(max(middle * middle - square * face.outside, 0.0));
+    end = face.outside > 0.0 ? face.outside / end : end / square;
+    float atEnd = face.atReceiver + end * dot(face.alongPlane, vec3(s, 1.0));
+    return atEnd * face.atReceiver < 0.0 && isInFace(face, s);
+}
+
+// Counts a face that reaches into a spherical light at each point, in place of what the count at the light's centre has
+// of it. Returns how many points it looked at.
+uint addFace(LightFrame frame, Receiver receiver, LightEdge record) {
+    SeenFace face = seeFace(frame, receiver.posLight, record);
+    bool isBetween = face.atReceiver * record.planes[1].w < 0.0;
+    int counted = !frame.isInside && isBetween && isInFace(face, vec2(0.0)) ? 1 : 0;
+    int hidden = 0;
+    for (int i = 0; i < SAMPLES; ++i) {
+        int hides = isHidden(face, samplePlace(frame, i)) ? 1 : 0;
+        changes[i] += hides - counted;
+        hidden += hides;
+    }
+    meanChangeFixed += hidden * int(fixedOne) / SAMPLES - counted * int(fixedOne);
+    if (hidden > 0 && hidden < SAMPLES) leastChange = 1;
+    if (hidden != SAMPLES * counted) ++edgesCounted;
+    return uint(SAMPLES);
 }

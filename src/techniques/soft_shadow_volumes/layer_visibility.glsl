@@ -1,31 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The share of the light that no layer hides. Requires layer_counts.glsl.
 
-layout(std430, binding = 5) readonly buffer Radiances { vec4 radiances[]; };
-
-// The share of the light over the horizon, where it is small: a square's corner or a disk's segment.
-float shareOverHorizon(LightFrame frame) {
-    vec2 slope = abs(frame.horizon.xy);
-    if (isSquareLight()) {
-        float above = slope.x + slope.y + frame.horizon.z;
-        return min(above * above / (8.0 * slope.x * slope.y + 1e-30), above / (2.0 * max(slope.x, slope.y)));
-    }
-    return 0.6 * pow(1.0 + frame.horizon.z / length(slope), 1.5);
-}
-
-// Less of the light than a quarter of what a sample stands for is nothing: grazing the surface, it carries a
-// hundred-thousandth of the light's irradiance.
-const float leastShare = 0.25 / float(SAMPLES);
-
 vec3 visibilityOf(LightFrame frame, int atCenter) {
     vec3 seen = vec3(0.0), all = vec3(0.0);
     int points = 0, covered = 0, layerSum = 0, least = 1 << 20, most = 0;
-    bool isTextured = volume.lightKind.w == 1;
+    bool isTextured = volume.lightKind.w == 1 && !isSliver;
     bool isCut = horizonSide(frame) == 0;
-    if (edgesCounted == 0 && !isCut) return vec3(atCenter <= 0 ? 1.0 : 0.0);
+    if (edgesCounted == 0) return vec3(atCenter <= 0 ? 1.0 : 0.0);
+    // No count is negative: if one were, the one at the centre, which was drawn, would be wrong by that much.
+    for (int i = 0; i < SAMPLES; ++i) atCenter = max(atCenter, -changes[i]);
     for (int i = 0; i < SAMPLES; ++i) {
-        if (isCut && !isAboveHorizon(frame, samplePlace(frame, i))) continue;
-        vec3 radiance = isTextured ? radiances[i].rgb : vec3(1.0);
+        vec2 s = samplePlace(frame, i);
+        if (isCut && !isInView(frame, s)) continue;
+        vec3 radiance = isTextured ? radiances[i].rgb : vec3(sampleWeight(frame, s));
         int count = max(changes[i] + atCenter, 0);
         all += radiance;
         ++points;
@@ -38,8 +25,7 @@ vec3 visibilityOf(LightFrame frame, int atCenter) {
             most = max(most, count);
         }
     }
-    // A sliver of the light over the horizon that no sample lies on is seen where its highest point is.
-    if (points == 0) return vec3(shareOverHorizon(frame) > leastShare && changeAtTop + atCenter <= 0 ? 1.0 : 0.0);
+    if (points == 0) return vec3(0.0);
     vec3 share = vec3(1.0 - float(covered) / float(points));  // where a channel is black all over
     vec3 sampled = mix(share, seen / max(all, 1e-30), greaterThan(all, vec3(0.0)));
     if (isTextured || isCut || frame.tangent > wideLight) return sampled;

@@ -5,6 +5,8 @@
 
 const float lightTau = 6.28318530717958647692;
 
+const float widest = 100.0;  // tangent of half of all that is over a horizon, but for a hundredth of it
+
 struct LightFrame {
     vec3 x, y, z;      // rows of unitFromLight, to be applied to a point minus the receiver
     float handedness;  // 1 or -1: the sign of the determinant
@@ -12,14 +14,16 @@ struct LightFrame {
     float rounding;    // of `horizon`: points no higher than this are on the horizon
     float tangent;     // of the angle of a sphere's or distant light's radius; 0 for flat lights
     bool isEndless;    // the light is infinitely far: nothing is behind it
+    bool isInside;     // the receiver is in a spherical light, which it sees in all directions over its horizon
 };
 
-// False where none of the light can be seen for want of a side, or the receiver lies in the light.
+// False where none of the light can be seen for want of a side, or the receiver lies in the plane of a flat one.
 bool makeLightFrame(Receiver receiver, out LightFrame frame) {
     vec3 p = receiver.posLight;
     vec3 u, v, center;
     frame.tangent = 0.0;
     frame.isEndless = false;
+    frame.isInside = false;
     frame.handedness = 1.0;
     if (volume.lightKind.x == shapeDistant) {
         frame.tangent = volume.lightSize.z;
@@ -31,21 +35,23 @@ bool makeLightFrame(Receiver receiver, out LightFrame frame) {
         frame.y = vec3(0.0, 1.0 / frame.tangent, 0.0);
         frame.z = center;
     } else if (volume.lightKind.x == shapeSphere) {
-        // The cone that touches the sphere cuts the plane through its centre in this radius.
+        // The circle in which a cone from the receiver touches the sphere. All that lies in the cone, clear of the
+        // sphere, is before the circle's plane or behind it as it is before the sphere or behind it.
         float distance2 = dot(p, p), radius2 = volume.lightSize.x * volume.lightSize.x;
-        if (distance2 <= radius2 * 1.0001) return false;
-        frame.tangent = sqrt(radius2 / (distance2 - radius2));
+        frame.isInside = distance2 <= radius2 * 1.0001;
+        frame.tangent = frame.isInside ? widest : sqrt(radius2 / (distance2 - radius2));
         float distance = sqrt(distance2);
-        vec3 axis = -p / distance;
+        vec3 axis = frame.isInside ? receiver.normalLight : -p / distance;
         vec3 side = normalize(abs(axis.x) < 0.7 ? cross(vec3(1.0, 0.0, 0.0), axis) : cross(vec3(0.0, 1.0, 0.0), axis));
         vec3 up = cross(axis, side);
-        float radius = frame.tangent * distance;
+        float along = frame.isInside ? volume.lightSize.x : (distance2 - radius2) / distance;
+        float radius = frame.tangent * along;
         u = side * radius;
         v = up * radius;
-        center = -p;
+        center = axis * along;
         frame.x = side / radius;
         frame.y = up / radius;
-        frame.z = axis / distance;
+        frame.z = axis / along;
     } else {
         if (p.z == 0.0 || (volume.lightKind.y == 1 && p.z > 0.0)) return false;
         vec2 size = volume.lightSize.xy;
@@ -65,9 +71,14 @@ bool makeLightFrame(Receiver receiver, out LightFrame frame) {
 bool isFlatLight() { return volume.lightKind.x == shapeRect || volume.lightKind.x == shapeDisk; }
 bool isSquareLight() { return volume.lightKind.x == shapeRect; }
 
-// 1: all of the light is above the horizon; -1: none; 0: some. A square's corners bound a disk, too.
+// How much higher than its centre the light's highest point is.
+float horizonReach(LightFrame frame) {
+    return isSquareLight() ? abs(frame.horizon.x) + abs(frame.horizon.y) : length(frame.horizon.xy);
+}
+
+// 1: all of the light is above the horizon; -1: none; 0: some.
 int horizonSide(LightFrame frame) {
-    float reach = isSquareLight() ? abs(frame.horizon.x) + abs(frame.horizon.y) : length(frame.horizon.xy);
+    float reach = horizonReach(frame);
     return frame.horizon.z >= reach ? 1 : frame.horizon.z + reach <= frame.rounding ? -1 : 0;
 }
 

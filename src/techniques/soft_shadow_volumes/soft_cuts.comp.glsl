@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
-// A triangle that cuts through a flat light hides what it hides with the part on the receiver's side of the light's
-// plane. That part ends in the cut: an edge of this face alone, in the light itself.
+// Triangles that cut through the light.
+//
+// A flat one: a triangle hides what it hides with the part on the receiver's side of the light's plane. That part ends in
+// the cut: an edge of this face alone, in the light itself.
+//
+// A sphere: a triangle ends where it goes into the ball, in a curve that is no edge. So it goes into the list whole, and
+// receivers ask each point of the light about it (addFace in layer_counts.glsl).
 layout(local_size_x = 256) in;
 
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
@@ -37,6 +42,12 @@ void main() {
     // What collapses has no edges either.
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
     vec4 plane = facePlane(2u * triangle);
+    if (volume.lightKind.x == shapeSphere) {
+        if (mayReachIntoSphere(2u * triangle))
+            gather(LightEdge(vec4(corners[0], wholeFace), vec4(corners[1], wholeFace),
+                             vec4[2](vec4(corners[2], 0.0), plane)));
+        return;
+    }
     gatherCut(corners, plane, -1.0);
     if (volume.lightKind.y == 0) gatherCut(corners, plane, 1.0);
 }

@@ -14,6 +14,11 @@ layout(std430, binding = 4) readonly buffer EdgeFaces { uint edgeFaces[]; };
 layout(location = 4) uniform uint edgeCount;
 layout(location = 5) uniform bool cutsLight;  // the mesh may cut through the light (see soft_cuts.comp.glsl)
 
+// Faces that reach into a sphere are looked at by themselves: to edges they are missing.
+bool isMissing(uint face) {
+    return cutsLight && volume.lightKind.x == shapeSphere && mayReachIntoSphere(face);
+}
+
 // x: what the light's centre sees, y: how far the light's other points can be from that.
 vec2 seenByLight(vec4 plane) {
     vec3 size = abs(plane.xyz);
@@ -45,13 +50,15 @@ void main() {
         float weight = 0.0;
         for (uint side = 0u; side < 2u; ++side) {
             bool exists = i + side < edge.faceCount;
-            planes[side] = exists ? facePlane(edgeFaces[edge.firstFace + i + side]) : vec4(0.0);
+            uint face = exists ? edgeFaces[edge.firstFace + i + side] : 0u;
+            exists = exists && !isMissing(face);
+            planes[side] = exists ? facePlane(face) : vec4(0.0);
             vec2 seen = seenByLight(planes[side]);
             isSure = isSure && (abs(seen.x) > 1.001 * seen.y || !exists);
             weight += sign(seen.x);
         }
         if (isSure && weight == 0.0) continue;
-        if (cutsLight) {
+        if (cutsLight && volume.lightKind.x != shapeSphere) {
             gatherSide(a, b, planes, -1.0);
             if (!isOneSided) gatherSide(a, b, planes, 1.0);
         } else {

@@ -13,6 +13,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 #include "src/techniques/soft_shadow_volumes/lifted_receiver.glsl"
 #include "src/techniques/soft_shadow_volumes/light_area.glsl"
+#include "src/techniques/soft_shadow_volumes/light_points.glsl"
 #include "src/techniques/soft_shadow_volumes/tile_shaft.glsl"
 #include "src/techniques/soft_shadow_volumes/layer_counts.glsl"
 #include "src/techniques/soft_shadow_volumes/layer_visibility.glsl"
@@ -33,7 +34,7 @@ layout(location = 1) uniform uint round_;
 layout(location = 2) uniform uint roundWork;  // loop iterations after which a tile pauses
 layout(location = 3) uniform uvec2 roundLists;  // where this round's list of tiles begins, and the next one's
 
-const uint stateWords = uint(SAMPLES) + 4u;
+const uint stateWords = uint(SAMPLES) + 3u;
 const uint wordsAtOnce = 64u;
 
 shared uint mattering[EDGES_AT_ONCE];
@@ -46,18 +47,16 @@ void saveCounts(uint tile) {
     for (int i = 0; i < SAMPLES; ++i) states[stateAt(tile, uint(i))] = changes[i];
     uint rest = uint(SAMPLES);
     states[stateAt(tile, rest)] = leastChange;
-    states[stateAt(tile, rest + 1u)] = changeAtTop;
-    states[stateAt(tile, rest + 2u)] = meanChangeFixed;
-    states[stateAt(tile, rest + 3u)] = edgesCounted;
+    states[stateAt(tile, rest + 1u)] = meanChangeFixed;
+    states[stateAt(tile, rest + 2u)] = edgesCounted;
 }
 
 void loadCounts(uint tile) {
     for (int i = 0; i < SAMPLES; ++i) changes[i] = states[stateAt(tile, uint(i))];
     uint rest = uint(SAMPLES);
     leastChange = states[stateAt(tile, rest)];
-    changeAtTop = states[stateAt(tile, rest + 1u)];
-    meanChangeFixed = states[stateAt(tile, rest + 2u)];
-    edgesCounted = states[stateAt(tile, rest + 3u)];
+    meanChangeFixed = states[stateAt(tile, rest + 1u)];
+    edgesCounted = states[stateAt(tile, rest + 2u)];
 }
 
 void pause(uint tile, uint word) {
@@ -98,18 +97,25 @@ uint listMattering(uint word, uint bits) {
 }
 
 // Returns how many iterations no invocation has exceeded.
-uint addMattering(LightFrame frame, Receiver receiver, vec2 top, bool seesLight, uint count) {
+uint addMattering(LightFrame frame, Receiver receiver, bool seesLight, uint count) {
     SeenEdge edge;
     uint most = 0u;
     for (uint first = 0u; first < count && seesLight; first += 32u) {
         // Which of them hide something from this receiver, that those alone cost what an edge costs.
         uint bits = 0u;
         for (uint i = 0u; i < min(32u, count - first); ++i) {
-            if (seeEdge(frame, receiver, lightEdges[mattering[first + i]], edge)) bits |= 1u << i;
+            LightEdge listed = lightEdges[mattering[first + i]];
+            bool isSeen = listed.aLight.w == wholeFace || (!frame.isInside && seeEdge(frame, receiver, listed, edge));
+            if (isSeen) bits |= 1u << i;
         }
         for (; bits != 0u; bits &= bits - 1u) {
-            seeEdge(frame, receiver, lightEdges[mattering[first + uint(findLSB(bits))]], edge);
-            most = max(most, addEdge(frame, top, edge));
+            LightEdge listed = lightEdges[mattering[first + uint(findLSB(bits))]];
+            if (listed.aLight.w == wholeFace) {
+                most = max(most, addFace(frame, receiver, listed));
+            } else {
+                seeEdge(frame, receiver, listed, edge);
+                most = max(most, addEdge(frame, edge));
+            }
         }
     }
     atomicMax(mostPoints, most);
@@ -130,7 +136,7 @@ void main() {
     LightFrame frame;
     bool isReceiver = isInside && loadLiftedReceiver(texel, receiver);
     bool seesLight = isReceiver && makeLightFrame(receiver, frame) && horizonSide(frame) >= 0;
-    vec2 top = seesLight ? topPlace(frame) : vec2(0.0);
+    if (seesLight) spreadPoints(frame);
     for (int i = 0; i < SAMPLES; ++i) changes[i] = 0;
     uint word = 0u;
     if (round_ > 0u) {
@@ -150,14 +156,14 @@ void main() {
         work += 32u;
         uint count = listMattering(word + lane, bits);
         if (count <= uint(EDGES_AT_ONCE)) {
-            work += addMattering(frame, receiver, top, seesLight, count);
+            work += addMattering(frame, receiver, seesLight, count);
             word += wordsAtOnce;
         } else {
             // As many words at a time as there is room for.
             const uint fitting = uint(EDGES_AT_ONCE) / 32u;
             for (uint first = 0u; first < wordsAtOnce && work < roundWork; first += fitting) {
                 uint part = listMattering(word - first + lane, lane / fitting == first / fitting ? bits : 0u);
-                work += addMattering(frame, receiver, top, seesLight, part);
+                work += addMattering(frame, receiver, seesLight, part);
                 word += fitting;
             }
         }
@@ -171,7 +177,7 @@ void main() {
     vec3 seen = vec3(isReceiver ? 0.0 : 1.0);
     if (seesLight) {
         int atCenter = int(round(texelFetch(volumeCounts, texel, 0).r)) + eye.blockers;
-        seen = visibilityOf(frame, atCenter);
+        seen = visibilityOf(frame, frame.isInside ? 0 : atCenter);
     }
     imageStore(visibility, texel, vec4(seen, 1.0));
     imageStore(edgeCounts, texel, vec4(float(edgesCounted)));

@@ -37,7 +37,7 @@ void SoftVolumes::describe(ParameterVisitor& visitor) {
         method_, methods);
     visitor.integer(
         {.name = "samples", .help = "points of the light at which overlapping blockers are told apart"},
-        effort_.samples, {16, TileLayers::mostSamples});
+        effort_.samples, {16, LightPoints::most});
     static constexpr std::array<std::string_view, 3> sizes = {"full", "half", "quarter"};
     visitor.choice(
         {.name = "v_buffer", .help = "width and height of the V-buffer, as a part of the picture's"},
@@ -54,6 +54,12 @@ void SoftVolumes::describe(ParameterVisitor& visitor) {
                  "than to find out while drawing"},
         marking_, markings);
     visitor.boolean({.name = "wireframe", .help = "outlines wedges for inspection"}, wireframe_);
+    visitor.integer(
+        {.name = "edge_memory",
+         .unit = "MiB",
+         .help = "at most, for the edges that matter to the light: 16,384 in each; if they do not "
+                 "fit, shadows are hard and the statistics say so"},
+        effort_.edgeMemory_MiB, {1, 2048});
     visitor.integer({.name = "round_work",
                      .unit = "iterations",
                      .help = "how much is done for a tile before it pauses, to go on in another dispatch"},
@@ -146,7 +152,8 @@ void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     if (pixelsPerTexel > 1) allocateVBuffer(glm::ivec2(frame.constants.buffer_px), format);
     const GLuint target = pixelsPerTexel > 1 ? vBuffer_.name() : out.texture();
     if (wedges) {
-        wedges_.render(frame, counter_, {WedgeRaster::Marking(marking_), wireframe_}, target, format,
+        wedges_.render(frame, inputs.light, counter_,
+                       {WedgeRaster::Marking(marking_), Counting(counting_), wireframe_}, target, format,
                        timers_);
     } else {
         layers_.render(frame, inputs.light, counter_, target, format, timers_);

@@ -3,11 +3,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <string>
-#include <vector>
 
 #include "src/geometry/edge_mesh.h"
 
@@ -28,29 +25,6 @@ void bindStorage(GLuint block, const gl::Buffer& buffer) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block, buffer.name());
 }
 
-/// Points that fill the unit square or disk evenly, none on a line with many others: whatever edge crosses
-/// the light meets them one after the other.
-std::vector<glm::vec4> spreadSamples(int count, bool onSquare) {
-    const double golden = glm::golden_ratio<double>() - 1;
-    std::vector<glm::vec4> samples;
-    for (int i = 0; i < count; ++i) {
-        const double along = (i + 0.5) / count;
-        const double turn = (i + 0.5) * golden - std::floor((i + 0.5) * golden);
-        glm::dvec2 place(2 * along - 1, 2 * turn - 1);
-        if (!onSquare) {
-            place = std::sqrt(along) * glm::dvec2(std::cos(glm::two_pi<double>() * turn),
-                                                  std::sin(glm::two_pi<double>() * turn));
-        }
-        const double direction = std::atan2(place.y, place.x) / glm::two_pi<double>();
-        samples.emplace_back(place, along, direction - std::floor(direction));
-    }
-    // Edges look up the points behind them by direction.
-    std::ranges::sort(samples, {}, &glm::vec4::w);
-    return samples;
-}
-
-/// A textured light has no exact area to correct its samples with.
-constexpr int texturedFactor = 2;
 constexpr int smallTile_px = 8;
 constexpr int largeTile_px = 32;
 /// The lists of large tiles, which are made larger rather than exceed this.
@@ -60,7 +34,7 @@ constexpr std::size_t largestStates_bytes = std::size_t(64) << 20;
 
 /// What soft_resolve.comp.glsl keeps of a tile between rounds.
 std::size_t stateBytes(int samples) {
-    return std::size_t(samples + 5) * smallTile_px * smallTile_px * sizeof(int);
+    return std::size_t(samples + 4) * smallTile_px * smallTile_px * sizeof(int);
 }
 
 /// How many edges soft_resolve.comp.glsl takes at once: so few that they take no longer than a round does,
@@ -77,7 +51,7 @@ TileLayers::TileLayers(Device& device)
       cuts_(device_.shaders, {shader("soft_cuts")}),
       bounds_(device_.shaders, {shader("soft_bounds")}),
       lists_(device_.shaders, {shader("soft_lists")}),
-      radiance_(device_.shaders, {shader("soft_radiance")}) {
+      points_(device) {
     GLint64 largest_bytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest_bytes);
     largestBlock_bytes_ = std::size_t(largest_bytes);
@@ -89,12 +63,15 @@ void TileLayers::prepare(VolumeFrame& frame, Effort effort) {
     for (std::size_t i = 0; i < frame.sources.size(); ++i) {
         const Mesh& mesh = *frame.sources[i].mesh;
         const std::size_t pairs = edgesOf(mesh).pairCount();
-        // Where the light may be cut through, an edge has a part on both of its sides, and a triangle its
-        // cut.
-        records += frame.cutsLight[i] ? 2 * (pairs + mesh.indices().size() / 3) : pairs;
+        const std::size_t triangles = mesh.indices().size() / 3;
+        // Where a flat light may be cut through, an edge has a part on both of its sides, and a triangle its
+        // cut; where a sphere may, each triangle may reach into it.
+        const bool isSphere = frame.constants.lightKind.x == int(LightShape::sphere);
+        records += !frame.cutsLight[i] ? pairs : isSphere ? pairs + triangles : 2 * (pairs + triangles);
     }
-    // Few edges of so many matter to a light that is not as large as they are; a storage block holds no more.
-    recordCount_ = std::min(records, largestBlock_bytes_ / sizeof(LightEdge) / 32 * 32);
+    // Few edges of so many matter to a light that is not as large as they are.
+    const std::size_t room_bytes = std::min(largestBlock_bytes_, std::size_t(effort.edgeMemory_MiB) << 20);
+    recordCount_ = std::min(records, room_bytes / sizeof(LightEdge) / 32 * 32);
     isLimited_ = recordCount_ < records;
     const std::size_t words = (recordCount_ + 31) / 32;
     reserve(lightEdges_, words * 32 * sizeof(LightEdge), "soft-volumes/edges");
@@ -123,32 +100,12 @@ void TileLayers::prepare(VolumeFrame& frame, Effort effort) {
     }
 }
 
-void TileLayers::placeSamples(const AreaLight& light) {
-    const bool onSquare = light.shape == LightShape::rect;
-    sampleCount_ = light.radianceTexture != 0 ? std::min(texturedFactor * effort_.samples, mostSamples)
-                                              : effort_.samples;
-    if (placedSamples_ != sampleCount_ || placedOnSquare_ != onSquare) {
-        const std::vector<glm::vec4> places = spreadSamples(sampleCount_, onSquare);
-        samplePlaces_ = gl::Buffer(std::as_bytes(std::span(places)), "soft-volumes/samples");
-        sampleRadiances_ = gl::Buffer(std::as_bytes(std::span(places)), "soft-volumes/radiances");
-        placedSamples_ = sampleCount_;
-        placedOnSquare_ = onSquare;
-    }
-    bindStorage(4, samplePlaces_);
-    bindStorage(5, sampleRadiances_);
-    if (light.radianceTexture != 0) {
-        radiance_.use();
-        glBindTextureUnit(3, light.radianceTexture);
-        glUniform1i(0, sampleCount_);
-        glDispatchCompute(GLuint(sampleCount_ + 63) / 64, 1, 1);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    }
-    if (resolveSamples_ != sampleCount_) {
-        resolve_ = gl::Program(device_.shaders, {shader("soft_resolve")},
-                               {"SAMPLES " + std::to_string(sampleCount_),
-                                "EDGES_AT_ONCE " + std::to_string(edgesAtOnce(sampleCount_))});
-        resolveSamples_ = sampleCount_;
-    }
+void TileLayers::makeResolve() {
+    if (resolveSamples_ == points_.count()) return;
+    resolve_ = gl::Program(device_.shaders, {shader("soft_resolve")},
+                           {"SAMPLES " + std::to_string(points_.count()),
+                            "EDGES_AT_ONCE " + std::to_string(edgesAtOnce(points_.count()))});
+    resolveSamples_ = points_.count();
 }
 
 void TileLayers::gatherEdges(const VolumeFrame& frame, const VolumeCounter& counter) {
@@ -204,18 +161,20 @@ void TileLayers::resolve(const VolumeFrame& frame, const VolumeCounter& counter)
     // A round does `roundWork`, unless nothing is left; all there may be is every edge, for every point. The
     // shader counts 16 besides for an edge, and 32 for looking through 64 words of a list, which it does once
     // more in each round.
-    const double work = double(recordCount_) * (sampleCount_ + 16) + 32.0 * (tiles.w / 64 + 1);
+    const int looks = tiles.w / 64 + 1;
+    const double work = double(recordCount_) * (points_.count() + 16) + 32.0 * looks;
     const int rounds = 1 + int(work / (effort_.roundWork - 32));
     const int fitting =
-        std::max(int(largestStates_bytes / (stateBytes(sampleCount_) * std::size_t(tiles.x))), 1);
+        std::max(int(largestStates_bytes / (stateBytes(points_.count()) * std::size_t(tiles.x))), 1);
     const int bandRows = rounds > 1 ? std::min(fitting, rows) : rows;
     const std::size_t bandTiles = std::size_t(bandRows) * std::size_t(tiles.x);
-    reserve(states_, rounds > 1 ? bandTiles * stateBytes(sampleCount_) : 0, "soft-volumes/states");
+    reserve(states_, rounds > 1 ? bandTiles * stateBytes(points_.count()) : 0, "soft-volumes/states");
     // One round more than there are: none is asked for, but its arguments are within reach of the shader.
     const GLuint lists = 3 * GLuint(rounds + 1);
     reserve(rounds_, (lists + 2 * bandTiles) * sizeof(GLuint), "soft-volumes/rounds");
 
     resolve_.use();
+    points_.bind();
     counter.bind(3, 2);
     edgeCounts_.bindImage(1, GL_WRITE_ONLY);
     bindStorage(6, states_);
@@ -249,7 +208,8 @@ void TileLayers::render(const VolumeFrame& frame, const AreaLight& light, const 
     {
         const auto pass = timers.pass("soft-volumes/edges");
         gatherEdges(frame, counter);
-        placeSamples(light);
+        points_.place(light, effort_.samples);
+        makeResolve();
     }
     {
         const auto pass = timers.pass("soft-volumes/tile lists");

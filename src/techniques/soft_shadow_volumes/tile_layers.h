@@ -6,6 +6,7 @@
 
 #include "src/gl/pass_timers.h"
 #include "src/gl/texture.h"
+#include "src/techniques/soft_shadow_volumes/light_points.h"
 #include "src/techniques/soft_shadow_volumes/volume_counter.h"
 
 namespace penumbra {
@@ -16,11 +17,11 @@ class TileLayers {
 
     /// How finely, and in what portions.
     struct Effort {
-        int samples = 64;                   ///< points of the light, at most `mostSamples`
+        int samples = 64;                   ///< points of the light, at most LightPoints::most
+        int edgeMemory_MiB = 128;           ///< at most; a storage block of the device may hold less
         int roundWork = softwareRoundWork;  ///< loop iterations after which a tile pauses, from 2,000; no
                                             ///< effect on the result
     };
-    static constexpr int mostSamples = 256;
     /// llvmpipe ends all loops of an invocation, without a word, after 65,535 iterations; the last edges
     /// before a pause may take half of that.
     static constexpr int softwareRoundWork = 30'000;
@@ -38,25 +39,23 @@ class TileLayers {
     /// How many edges were looked at for each texel.
     const gl::Texture& edgeCounts() const { return edgeCounts_; }
     std::size_t size_bytes() const;
-    /// Edges beyond what a storage block of the device holds (2 million at least). If there are any, the
-    /// result is the hard shadow of the light's centre. Waits for the device where there may be.
+    /// Edges beyond what the memory holds. If there are any, the result is the hard shadow of the light's
+    /// centre. Waits for the device where there may be.
     std::size_t edgesWithoutRoom(const VolumeCounter& counter) const;
 
   private:
     void gatherEdges(const VolumeFrame& frame, const VolumeCounter& counter);
-    void placeSamples(const AreaLight& light);
+    void makeResolve();
     void listEdges(const VolumeFrame& frame, const VolumeCounter& counter);
     void resolve(const VolumeFrame& frame, const VolumeCounter& counter);
 
     Device::Internals& device_;
-    gl::Program gather_, cuts_, bounds_, lists_, radiance_, resolve_;
-    gl::Buffer lightEdges_, tileBounds_, tileLists_, samplePlaces_, sampleRadiances_, states_, rounds_;
+    gl::Program gather_, cuts_, bounds_, lists_, resolve_;
+    LightPoints points_;
+    gl::Buffer lightEdges_, tileBounds_, tileLists_, states_, rounds_;
     gl::Texture edgeCounts_;
     Effort effort_;
-    int sampleCount_ = 0;     // of this light
     int resolveSamples_ = 0;  // that `resolve_` was made for
-    int placedSamples_ = 0;
-    bool placedOnSquare_ = false;
     std::size_t largestBlock_bytes_ = 0;
     std::size_t recordCount_ = 0;  // room for LightEdges
     bool isLimited_ = false;       // to less than there may be

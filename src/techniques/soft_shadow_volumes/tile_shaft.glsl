@@ -18,11 +18,7 @@ TileBounds lightBounds(TileBounds tile) {
         bounds.low = vec4(tile.low.xyz - spread, 0.0);
         bounds.high = vec4(tile.high.xyz + spread + vec3(0.0, 0.0, height), 0.0);
     } else if (volume.lightKind.x == shapeSphere) {
-        // The disk that stands for a sphere reaches a little further than the sphere.
-        vec3 from = max(max(tile.low.xyz, -tile.high.xyz), vec3(0.0));
-        float distance2 = dot(from, from), radius2 = volume.lightSize.x * volume.lightSize.x;
-        float radius = volume.lightSize.x * (distance2 > 2.0 * radius2 ? sqrt(distance2 / (distance2 - radius2)) : 64.0);
-        bounds.low = vec4(vec3(-radius), 0.0);
+        bounds.low = vec4(vec3(-volume.lightSize.x), 0.0);
         bounds.high = -bounds.low;
     } else {
         bounds.low = vec4(-volume.lightSize.xy, 0.0, 0.0);
@@ -91,13 +87,14 @@ void prepareShaft(TileBounds tile) {
 // False only if the edge hides nothing of the light from any receiver of the tile.
 bool mayMatter(LightEdge edge) {
     // Without an exit in between, so that compilers unroll it.
-    bool isOutside = false;
+    bool isOutside = false, isFace = edge.aLight.w == wholeFace;
+    vec3 third = isFace ? edge.planes[0].xyz : edge.aLight.xyz;
     for (int i = 0; i < shaftPlaneCount; ++i) {
         vec4 plane = shaft[i];
-        isOutside = isOutside ||
-                    min(dot(plane.xyz, edge.aLight.xyz), dot(plane.xyz, edge.bLight.xyz)) > plane.w;
+        float nearest = min(dot(plane.xyz, edge.aLight.xyz), dot(plane.xyz, edge.bLight.xyz));
+        isOutside = isOutside || min(nearest, dot(plane.xyz, third)) > plane.w;
     }
-    if (isOutside) return false;
+    if (isOutside || isFace) return !isOutside;
     // Two faces that all receivers see continue each other, or one behind the other's back, make no silhouette.
     float first = tileSide(edge.planes[0], shaftTile), second = tileSide(edge.planes[1], shaftTile);
     return first == 0.0 || first != -second;

@@ -19,40 +19,61 @@ const float sameNormal = 0.75;
 
 const float nowhere = 3e38;
 
+// The texels that the pixels of a tile look at: from one before the first to two after the last, at most 7 x 7.
+struct Texel {
+    vec3 posLight;
+    vec3 normalLight;  // 0 where nothing receives
+    vec3 seen;
+};
+shared Texel texels[64];
+
+int texelsAcross() { return 8 / volume.buffer_px.z + 3; }
+
+void loadTexel(ivec2 firstTexel) {
+    int lane = int(gl_LocalInvocationIndex), across = texelsAcross();
+    ivec2 texel = firstTexel + ivec2(lane % across, lane / across);
+    ivec2 inside = clamp(texel, ivec2(0), volume.buffer_px.xy - 1);
+    Receiver receiver;
+    bool isThere = texel == inside && loadLiftedReceiver(inside, receiver);
+    texels[lane] = Texel(isThere ? receiver.posLight : vec3(0.0), isThere ? receiver.normalLight : vec3(0.0),
+                         texelFetch(vBuffer, inside, 0).rgb);
+}
+
 // Whether the texel lies on the pixel's surface. How far it is in any case: far, where it is on another.
-bool isKin(Receiver pixel, ivec2 texel, out float distance_m) {
-    Receiver other;
+bool isKin(Receiver pixel, Texel texel, out float distance_m) {
     distance_m = nowhere;
-    if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, volume.buffer_px.xy))) return false;
-    if (!loadLiftedReceiver(texel, other)) return false;
-    vec3 way = other.posLight - pixel.posLight;
+    if (texel.normalLight == vec3(0.0)) return false;
+    vec3 way = texel.posLight - pixel.posLight;
     distance_m = length(way);
     float rounding = 1e-5 * length(pixel.posLight);
-    bool kin = dot(pixel.normalLight, other.normalLight) >= sameNormal &&
+    bool kin = dot(pixel.normalLight, texel.normalLight) >= sameNormal &&
                abs(dot(pixel.normalLight, way)) <= offPlane * distance_m + rounding;
     // To be taken only where no texel around is any better.
     if (!kin) distance_m *= 1e6;
     return kin;
 }
 
-vec3 texelAt(ivec2 texel) { return texelFetch(vBuffer, clamp(texel, ivec2(0), volume.buffer_px.xy - 1), 0).rgb; }
-
 void main() {
     uint tilesAcross = uint(view.size_px.x + 7) / 8u, tile = mixedTiles[3u + gl_WorkGroupID.x];
-    ivec2 pixel = ivec2(8u * uvec2(tile % tilesAcross, tile / tilesAcross) + gl_LocalInvocationID.xy);
+    ivec2 firstPixel = ivec2(8u * uvec2(tile % tilesAcross, tile / tilesAcross));
+    int scale = volume.buffer_px.z;
+    loadTexel(firstPixel / scale - 1);
+    barrier();
+    ivec2 pixel = firstPixel + ivec2(gl_LocalInvocationID.xy);
     Receiver receiver;
     if (any(greaterThanEqual(pixel, view.size_px.xy)) || !loadReceiver(pixel, receiver)) return;
 
-    int scale = volume.buffer_px.z;
-    ivec2 first = pixel / scale;
-    vec2 part = vec2(pixel - first * scale) / float(scale);
+    ivec2 before = pixel / scale - firstPixel / scale;  // among the tile's texels, where the first pixel's own is (1, 1)
+    vec2 part = vec2(pixel % scale) / float(scale);
     vec3 sum = vec3(0.0);
     float weights = 0.0, distance_m;
     for (int i = 0; i < 4; ++i) {
         ivec2 step = ivec2(i & 1, i >> 1);
         vec2 share = mix(1.0 - part, part, vec2(step));
-        float weight = isKin(receiver, first + step, distance_m) ? share.x * share.y : 0.0;
-        sum += weight * texelAt(first + step);
+        ivec2 place = before + 1 + step;
+        Texel texel = texels[place.y * texelsAcross() + place.x];
+        float weight = isKin(receiver, texel, distance_m) ? share.x * share.y : 0.0;
+        sum += weight * texel.seen;
         weights += weight;
     }
     vec3 seen = sum / max(weights, 1e-30);
@@ -62,11 +83,12 @@ void main() {
     float nearest = nowhere;
     if (ring > 0) seen = vec3(1.0);
     for (int i = 0; i < ring; ++i) {
-        ivec2 texel = first + ivec2(i & 3, i >> 2) - 1;
+        ivec2 place = before + ivec2(i & 3, i >> 2);
+        Texel texel = texels[place.y * texelsAcross() + place.x];
         isKin(receiver, texel, distance_m);
         if (distance_m < nearest) {
             nearest = distance_m;
-            seen = texelAt(texel);
+            seen = texel.seen;
         }
     }
     imageStore(visibility, pixel, vec4(seen, 1.0));

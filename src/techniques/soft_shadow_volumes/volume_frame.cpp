@@ -111,10 +111,10 @@ VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel)
     glm::dvec2 half(0.5 * light.width_m, 0.5 * light.height_m);
     half = glm::max(half, glm::dvec2(1e-3 * std::max(half.x, half.y)));
     if (light.shape != LightShape::rect) half = glm::dvec2(light.radius_m);
-    const bool isFlat = light.shape == LightShape::rect || light.shape == LightShape::disk;
+    const glm::dvec3 reach(half, light.shape == LightShape::sphere ? half.x : 0);
     const auto isCut = [&](const LightBox& box) {
-        return isFlat && glm::all(glm::lessThanEqual(box.low, glm::dvec3(half, 0))) &&
-               glm::all(glm::greaterThanEqual(box.high, glm::dvec3(-half, 0)));
+        return light.shape != LightShape::distant && glm::all(glm::lessThanEqual(box.low, reach)) &&
+               glm::all(glm::greaterThanEqual(box.high, -reach));
     };
     const auto casts = [](const Caster& caster) { return caster.casts && !caster.mesh->indices().empty(); };
 
@@ -124,7 +124,7 @@ VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel)
     if (std::ranges::any_of(inputs.casters, [&](const Caster& caster) {
             return casts(caster) && isCut(boxOf(*caster.mesh, lightFromWorld * toGlm(caster.worldFromMesh)));
         })) {
-        const glm::dvec3 off(1e-4 * half * glm::dvec2(0.618, 0.755), 0);
+        const glm::dvec3 off = 1e-4 * reach * glm::dvec3(0.618, 0.755, 0.211);
         lightFromWorld = glm::translate(glm::dmat4(1), off) * lightFromWorld;
     }
 

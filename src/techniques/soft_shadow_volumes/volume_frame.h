@@ -22,7 +22,7 @@ struct VolumeFrame {
     /// For each source: as how many layers a triangle of it counts.
     std::pmr::vector<int> layersEach{gl::LedgerScope::frameMemory()};
 
-    /// For each source: whether it may cut through the light, if that is flat.
+    /// For each source: whether it may cut through the light.
     std::pmr::vector<bool> cutsLight = std::pmr::vector<bool>(gl::LedgerScope::frameMemory());
 
     /// A triangle may lie between the eye and a receiver without being seen: before the near plane, as it may

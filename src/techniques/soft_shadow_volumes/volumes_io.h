@@ -35,8 +35,9 @@ struct VolumeConstants {
 // weights add. A face's plane, dotted with (p, 1), is positive where p sees its front, times the direction in
 // which the face walks the edge; that of a missing face is 0.
 //
-// w: 0; or where the face ends because it cuts through a flat light, the sign of z on the side that it is the
-// edge of.
+// aLight.w, bLight.w: 0; or where the face ends because it cuts through a flat light, the sign of z on the
+// side that it is the edge of; or wholeFace: this is no edge but a face that reaches into a sphere, with
+// corners aLight, bLight and planes[0], in the plane planes[1].
 struct LightEdge {
     vec4 aLight;
     vec4 bLight;
@@ -58,6 +59,7 @@ struct EyeState {
 static_assert(sizeof(VolumeConstants) == 144 && sizeof(LightEdge) == 64 && sizeof(EyeState) == 64);
 }  // namespace penumbra
 #else
+const float wholeFace = 2.0;
 const int shapeRect = 0, shapeDisk = 1, shapeSphere = 2, shapeDistant = 3;
 layout(std140, binding = 1) uniform VolumeBlock {
     VolumeConstants volume;

@@ -11,6 +11,7 @@ layout(std430, binding = 1) readonly buffer Layers { int layersEach[]; };
 
 layout(std430, binding = 2) readonly buffer Commands { SilhouetteCommands commands; };
 layout(location = 0) uniform int wedgeHalf;  // 0: the whole; 1, -1: the half on one or the other side of the middle plane
+layout(location = 1) uniform int wedgeEye;   // 0: all; 1, -1: only if the eye may be in the (half) wedge, or cannot be
 
 layout(location = 0) flat out vec3 aLight;
 layout(location = 1) flat out vec3 bLight;
@@ -29,6 +30,18 @@ vec3 towardsLight(vec3 from, vec3 signs, mat3 axes) {
     if (volume.lightKind.x == shapeDistant) return vec3(signs.xy * volume.lightSize.z, 1.0) * axes;
     vec3 reach = vec3(volume.lightSize.xy, volume.lightKind.x == shapeSphere ? volume.lightSize.x : 0.0);
     return (signs * reach - from) * axes;
+}
+
+const float eyeMargin = 1e-4;  // of the eye's distance
+
+// Whether the eye may be between the planes of a wedge, whose top is the edge from `a` to `b`. At a depth below the top it
+// spans slopes times that depth.
+bool mayHoldEye(vec3 a, vec3 b, mat3 axes, vec2 low, vec2 high) {
+    if (volume.eyeLight.w == 0.0) return true;
+    vec3 fromA = (volume.eyeLight.xyz - a) * axes, fromB = (volume.eyeLight.xyz - b) * axes;
+    float depth = -fromA.z, margin = eyeMargin * (length(fromA) + length(fromB));
+    return depth >= -margin && fromA.x >= -depth * high.x - margin && fromB.x <= -depth * low.x + margin &&
+           fromA.y >= -depth * high.y - margin && fromA.y <= -depth * low.y + margin;
 }
 
 void main() {
@@ -79,6 +92,11 @@ void main() {
     // The middle plane holds the edge and the light's centre: y = 0.
     if (wedgeHalf > 0) low.y = 0.0;
     if (wedgeHalf < 0) high.y = 0.0;
+
+    if (wedgeEye != 0 && mayHoldEye(a, b, axes, low, high) != (wedgeEye > 0)) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+        return;
+    }
 
     int corner = corners[gl_VertexID % 24];
     vec4 place;

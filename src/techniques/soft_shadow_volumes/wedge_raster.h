@@ -5,6 +5,7 @@
 
 #include "src/gl/pass_timers.h"
 #include "src/gl/texture.h"
+#include "src/techniques/soft_shadow_volumes/light_points.h"
 #include "src/techniques/soft_shadow_volumes/volume_counter.h"
 
 namespace penumbra {
@@ -15,10 +16,13 @@ class WedgeRaster {
 
     enum class Marking {
         none,     ///< wedges are drawn at once, and a pixel outside of one finds that it adds nothing
-        stencil,  ///< pixels inside each half wedge are marked first (figure 11), so that only they pay
+        stencil,  ///< pixels inside each half wedge are marked first (4.2.7), so that only they pay
     };
     struct Options {
         Marking marking = Marking::none;
+        /// How pixels are marked. Automatic: by Z-pass, but for half wedges that may hold the eye. By Z-pass
+        /// alone these come out wrong.
+        Counting counting = Counting::automatic;
         bool wireframe = false;  ///< outlines the wedges for inspection
     };
 
@@ -28,22 +32,25 @@ class WedgeRaster {
 
     /// Writes visibility into `target`, a texture of the V-buffer's size. The frame's constants, the view and
     /// what `counter` counted must be there.
-    void render(const VolumeFrame& frame, const VolumeCounter& counter, Options options, GLuint target,
-                GLenum format, gl::PassTimers& timers);
+    void render(const VolumeFrame& frame, const AreaLight& light, const VolumeCounter& counter,
+                Options options, GLuint target, GLenum format, gl::PassTimers& timers);
 
     /// The V-buffer's additive and subtractive layer; how many (half) wedges each texel was evaluated for;
     /// and the last outlines, where they were asked for.
     void inspect(InspectionVisitor& visitor) const;
 
   private:
-    void allocate(glm::ivec2 size_px, Options options);
+    void allocate(glm::ivec2 size_px, bool isTextured, Options options);
     void drawAll(const VolumeCounter& counter) const;
-    void drawMarked(const VolumeFrame& frame, const VolumeCounter& counter) const;
+    void drawMarked(const VolumeFrame& frame, const VolumeCounter& counter, Counting counting) const;
+    void markHalf(int wedge, int half, Counting counting) const;
+    void addHalf(int wedge, int half) const;
     void drawWireframe(const VolumeCounter& counter, glm::ivec2 size_px) const;
 
     gl::Program wedges_, marks_, resolve_;
     gl::VertexArrayHandle noVertices_;
-    gl::Texture layers_, evaluations_, depthAndMarks_, wireframe_;
+    LightPoints points_;
+    gl::Texture layers_, evaluations_, colors_, depthAndMarks_, wireframe_;
     gl::Framebuffer framebuffer_, wireframeFramebuffer_;
 };
 

@@ -10,6 +10,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 3) uniform sampler2D volumeCounts;
 layout(binding = 5) uniform sampler2D wedgeLayers;
+layout(binding = 6) uniform sampler2D wedgeColors;  // of a textured light
 layout(std430, binding = 2) readonly buffer Eye { EyeState eye; };
 layout(binding = 0) uniform writeonly image2D visibility;
 
@@ -18,14 +19,15 @@ void main() {
     if (any(greaterThanEqual(texel, volume.buffer_px.xy))) return;
     Receiver receiver;
     LightFrame frame;
-    float seen = 1.0;
+    vec3 seen = vec3(1.0);
     if (loadLiftedReceiver(texel, receiver)) {
-        seen = 0.0;
+        seen = vec3(0.0);
         if (makeLightFrame(receiver, frame) && horizonSide(frame) >= 0) {
             float hard = 0.5 * (texelFetch(volumeCounts, texel, 0).r + float(eye.blockers));
             vec2 layers = texelFetch(wedgeLayers, texel, 0).rg;
-            seen = clamp(1.0 - hard + layers.x - layers.y, 0.0, 1.0);
+            vec3 soft = volume.lightKind.w == 1 ? texelFetch(wedgeColors, texel, 0).rgb : vec3(layers.x - layers.y);
+            seen = frame.isInside ? vec3(1.0) : clamp(1.0 - hard + soft, 0.0, 1.0);
         }
     }
-    imageStore(visibility, texel, vec4(seen));
+    imageStore(visibility, texel, vec4(seen, 1.0));
 }

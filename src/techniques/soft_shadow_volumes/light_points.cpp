@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/techniques/soft_shadow_volumes/light_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <glm/gtc/constants.hpp>
+#include <span>
+#include <vector>
+
+namespace penumbra {
+namespace {
+
+/// Points that fill the unit square or disk evenly, none on a line with many others: whatever edge crosses
+/// the light meets them one after the other.
+std::vector<glm::vec4> spreadPoints(int count, bool onSquare) {
+    const double golden = glm::golden_ratio<double>() - 1;
+    std::vector<glm::vec4> points;
+    for (int i = 0; i < count; ++i) {
+        const double along = (i + 0.5) / count;
+        const double turn = (i + 0.5) * golden - std::floor((i + 0.5) * golden);
+        glm::dvec2 place(2 * along - 1, 2 * turn - 1);
+        if (!onSquare) {
+            place = std::sqrt(along) * glm::dvec2(std::cos(glm::two_pi<double>() * turn),
+                                                  std::sin(glm::two_pi<double>() * turn));
+        }
+        const double direction = std::atan2(place.y, place.x) / glm::two_pi<double>();
+        points.emplace_back(place, along, direction - std::floor(direction));
+    }
+    // Edges look up the points behind them by direction.
+    std::ranges::sort(points, {}, &glm::vec4::w);
+    return points;
+}
+
+/// A textured light has no exact area to correct its samples with.
+constexpr int texturedFactor = 2;
+
+}  // namespace
+
+LightPoints::LightPoints(Device& device)
+    : radiance_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/soft_radiance.comp.glsl"}) {}
+
+void LightPoints::place(const AreaLight& light, int count) {
+    const bool onSquare = light.shape == LightShape::rect, isTextured = light.radianceTexture != 0;
+    const int wanted = isTextured ? std::min(texturedFactor * count, most) : count;
+    if (count_ != wanted || onSquare_ != onSquare) {
+        const std::vector<glm::vec4> places = spreadPoints(wanted, onSquare);
+        places_ = gl::Buffer(std::as_bytes(std::span(places)), "soft-volumes/points");
+        radiances_ = gl::Buffer(std::as_bytes(std::span(places)), "soft-volumes/radiances");
+        count_ = wanted;
+        onSquare_ = onSquare;
+    }
+    if (!isTextured) return;
+    radiance_.use();
+    bind();
+    glBindTextureUnit(3, light.radianceTexture);
+    glUniform1i(0, count_);
+    glDispatchCompute(GLuint(count_ + 63) / 64, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void LightPoints::bind() const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, places_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, radiances_.name());
+}
+
+}  // namespace penumbra

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points of the light that stand for what is around them.
+#pragma once
+
+#include "penumbra/light.h"
+#include "src/device_internals.h"
+#include "src/gl/buffer.h"
+#include "src/gl/program.h"
+
+namespace penumbra {
+
+class LightPoints {
+  public:
+    explicit LightPoints(Device& device);
+
+    static constexpr int most = 256;
+
+    /// Spreads `count` points over the light's unit square or disk, twice as many where it is textured, but
+    /// no more than `most`; and finds what a textured light radiates around each.
+    void place(const AreaLight& light, int count);
+
+    /// Of the light they were last placed on.
+    int count() const { return count_; }
+    /// Their places and radiances, for light_points.glsl.
+    void bind() const;
+
+  private:
+    gl::Program radiance_;
+    gl::Buffer places_, radiances_;
+    int count_ = 0;
+    bool onSquare_ = false;
+};
+
+}  // namespace penumbra
