@@ -18,6 +18,10 @@ constexpr std::array<std::string_view, 3> falloffs = {"light", "linear", "sinuso
 /// Receivers that cast nothing are mapped at a quarter of the map's size: only widths depend on them.
 constexpr int receiverTexel_px = 4;
 
+/// Half the penumbra's smallest width. Edges are known exactly; it softens what is left of the texels between
+/// them.
+constexpr double smallestWidth_texels = 0.25;
+
 void bindStorage(GLuint block, const gl::Buffer& buffer) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block, buffer.name());
 }
@@ -116,7 +120,7 @@ SmoothieConstants Smoothies::constantsOf(const AreaLight& light, const LightCame
         .halfX = glm::dvec4(faceFromLight[0] * double(rect ? 0.5f * light.width_m : light.radius_m), 0),
         .halfY = glm::dvec4(faceFromLight[1] * double(rect ? 0.5f * light.height_m : light.radius_m), 0),
         .widths = {distant ? std::tan(0.5 * light.angle_rad) : light.radius_m, 0.5 * t_ * window,
-                   window / mapSize_px_, window},
+                   smallestWidth_texels * window / mapSize_px_, window},
         .nearness = {camera.orthographic ? -farthest_m : 1 / farthest_m,
                      camera.orthographic ? -nearest_m : 1 / nearest_m, 0, 0},
         .settings = {int(light.shape), falloff_, remap_, inner_},
