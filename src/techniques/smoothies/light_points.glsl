@@ -28,7 +28,9 @@ Glance glanceAt(Lookup l, int i, float blocker) {
     float receiver = nearnessOf(l.camera, l.point.posFace.z);
     vec2 uv = uvOf(l.camera, place + (s.xy - s.z * place) * (blocker - receiver));
     if (any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) return Glance(false, false, 0.0);
-    ivec2 texel = ivec2(uv * float(textureSize(depthMaps, 0).x));
-    float stored = texelFetch(depthMaps, ivec3(texel, l.camera), 0).r;
-    return Glance(true, isBehindBlocker(l, texel, 1e6 * l.point.texel_m), storedNearness(l.camera, stored));
+    float size_px = float(textureSize(depthMaps, 0).x);
+    ivec2 texel = ivec2(uv * size_px);
+    float nearness = storedNearness(l.camera, texelFetch(depthMaps, ivec3(texel, l.camera), 0).r);
+    float plane_m = receiverPlaneDepth_m(l.camera, l.point, l.normalFace, (vec2(texel) + 0.5) / size_px, 1e6 * l.point.texel_m);
+    return Glance(true, nearnessOf(l.camera, plane_m - l.tolerance_m) < nearness, nearness);
 }

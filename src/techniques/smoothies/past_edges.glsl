@@ -61,24 +61,19 @@ PastEdge pastEdge(Lookup l, uint number, int layer) {
     return PastEdge(falloff(l.camera, extent, x), outward, blocker);
 }
 
-// Minimum blending, for the receiver itself: of the edges in the four nearest texels the one in whose penumbra it lies
-// deepest. A texel names the one that was deepest for what the light sees there, at its centre.
-PastEdge deepestEdge(Lookup l, int layer) {
+// The edge that a texel names, or, where it names none that counts for the receiver itself, one of its neighbours' towards
+// the receiver: borders of smoothies follow their texels.
+PastEdge pastEdgeNear(Lookup l, ivec2 depthTexel, int layer) {
     ivec2 size_px = textureSize(deepestEdges, 0).xy;
-    ivec2 base = ivec2(floor(l.point.uv * vec2(size_px) - 0.5));
-    PastEdge deepest = pastNone(layer);
-    uint numbers[4];
-    for (int i = 0; i < 4; ++i) {
-        ivec2 texel = clamp(base + ivec2(i & 1, i >> 1), ivec2(0), size_px - 1);
-        numbers[i] = texelFetch(deepestEdges, ivec3(texel, layersPerCamera * l.camera + layer), 0).r;
-        bool isKnown = numbers[i] == noEdge;
-        for (int k = 0; k < i; ++k) isKnown = isKnown || numbers[k] == numbers[i];
-        if (isKnown) continue;
-        PastEdge past = pastEdge(l, numbers[i], layer);
-        float more = dot(vec3(past.seen - deepest.seen), vec3(layer == layerOuter ? -1.0 : 1.0));
-        if (isEdge(past) && (!isEdge(deepest) || more > 0.0)) deepest = past;
+    ivec2 own = depthTexel * size_px / textureSize(depthMaps, 0).xy;
+    ivec2 towards = mix(ivec2(-1), ivec2(1), greaterThan(l.point.uv * vec2(size_px), vec2(own) + 0.5));
+    PastEdge past = pastNone(layer);
+    for (int i = 0; i < 4 && !isEdge(past); ++i) {
+        ivec2 texel = clamp(own + towards * ivec2(i & 1, i >> 1), ivec2(0), size_px - 1);
+        uint number = texelFetch(deepestEdges, ivec3(texel, layersPerCamera * l.camera + layer), 0).r;
+        if (number != noEdge) past = pastEdge(l, number, layer);
     }
-    return deepest;
+    return past;
 }
 
 // The part of the light that comes past both of two edges: none where they face away from each other, the lesser where

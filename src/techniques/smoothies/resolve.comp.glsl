@@ -23,14 +23,15 @@ Seen visibilityAt(Receiver receiver, bool isWhole) {
     if (!findCamera(receiver, l)) return Seen(1.0);
     Neighbours n = neighboursOf(l);
     PastEdge past[layersPerCamera];
-    past[layerOuter] = deepestEdge(l, layerOuter);
+    past[layerOuter] = pastEdgeNear(l, n.litTexel, layerOuter);
     PastEdge near = past[layerOuter];
     if (smoothies[l.camera].settings.w == 0) return (1.0 - n.behind) * near.seen;
 
     // What a receiver sees that does not see the light's centre; and one that does, past the far side of a thin blocker.
+    ivec2 innerTexel = n.behind > 0.0 ? n.behindTexel : n.litTexel;
     Seen opposite = Seen(0.0), behind = Seen(0.0), most = Seen(0.0);
     for (int i = firstInnerLayer; i < layersPerCamera; ++i) {
-        past[i] = deepestEdge(l, i);
+        past[i] = pastEdgeNear(l, innerTexel, i);
         if (dot(near.outward, past[i].outward) < -0.5) opposite = max(opposite, past[i].seen);
         behind += past[i].seen;
         most = max(most, past[i].seen);

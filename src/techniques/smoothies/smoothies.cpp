@@ -18,6 +18,10 @@ constexpr std::array<std::string_view, 3> falloffs = {"light", "linear", "sinuso
 /// Receivers that cast nothing are mapped at a quarter of the map's size: only widths depend on them.
 constexpr int receiverTexel_px = 4;
 
+/// What the map of casters with holes has more along each axis: edges of holes are known by its texels alone.
+constexpr int maskedMapScale = 2;
+constexpr int largestMap_px = 16384;
+
 /// Half the penumbra's smallest width. Edges are known exactly; it softens what is left of the texels between
 /// them.
 constexpr double smallestWidth_texels = 0.25;
@@ -85,7 +89,7 @@ void Smoothies::describe(ParameterVisitor& visitor) {
     visitor.integer({.name = "map_size",
                      .unit = "texels",
                      .help = "width and height of the shadow map; smoothies are drawn at half of it"},
-                    mapSize_px_, {16, 16384});
+                    mapSize_px_, {16, largestMap_px});
     visitor.boolean({.name = "inner",
                      .help = "smoothies reach into the blocker too, so that the umbra shrinks as the light "
                              "grows; off as in the paper"},
@@ -240,7 +244,8 @@ void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scen
     }
     if (hasMaskedMap_) {
         const auto pass = timers_.pass("smoothies/masked map");
-        maskedMap_.render(casting(isMasked), scene, cameras, mapSize_px_);
+        maskedMap_.render(casting(isMasked), scene, cameras,
+                          std::min(maskedMapScale * mapSize_px_, largestMap_px));
         if (!saidMasked_) {
             device_.log.write(LogLevel::info,
                               "smoothies: casters with an alpha mask have no silhouette edges; their shadows "
