@@ -61,17 +61,18 @@ PastEdge pastEdge(Lookup l, uint number, int layer) {
     return PastEdge(falloff(l.camera, extent, x), outward, blocker);
 }
 
-// The edge that a texel names, or, where it names none that counts for the receiver itself, one of its neighbours' towards
-// the receiver: borders of smoothies follow their texels.
+// The edge that a texel names, or, where it names none that counts for the receiver itself, the neighbour's that the
+// receiver is closest to: borders of smoothies follow their texels.
 PastEdge pastEdgeNear(Lookup l, ivec2 depthTexel, int layer) {
     ivec2 size_px = textureSize(deepestEdges, 0).xy;
-    ivec2 own = depthTexel * size_px / textureSize(depthMaps, 0).xy;
-    ivec2 towards = mix(ivec2(-1), ivec2(1), greaterThan(l.point.uv * vec2(size_px), vec2(own) + 0.5));
+    ivec2 texel = depthTexel * size_px / textureSize(depthMaps, 0).xy;
+    vec2 offset = l.point.uv * vec2(size_px) - (vec2(texel) + 0.5);
+    ivec2 neighbour = texel + (abs(offset.x) > abs(offset.y) ? ivec2(sign(offset.x), 0) : ivec2(0, sign(offset.y)));
     PastEdge past = pastNone(layer);
-    for (int i = 0; i < 4 && !isEdge(past); ++i) {
-        ivec2 texel = clamp(own + towards * ivec2(i & 1, i >> 1), ivec2(0), size_px - 1);
+    for (int i = 0; i < 2 && !isEdge(past); ++i) {
         uint number = texelFetch(deepestEdges, ivec3(texel, layersPerCamera * l.camera + layer), 0).r;
         if (number != noEdge) past = pastEdge(l, number, layer);
+        texel = clamp(neighbour, ivec2(0), size_px - 1);
     }
     return past;
 }
