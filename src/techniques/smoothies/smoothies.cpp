@@ -63,6 +63,13 @@ double farthestReceiver_m(const LightCamera& camera, const LightSpaceScene& scen
 
 }  // namespace
 
+Smoothies::PicturePrograms::PicturePrograms(Device& device, const std::string& file,
+                                            std::vector<std::string> defines)
+    : withoutNormals(device.internals().shaders, {"src/techniques/smoothies/" + file}, defines) {
+    defines.emplace_back("WITH_NORMALS");
+    withNormals = gl::Program(device.internals().shaders, {"src/techniques/smoothies/" + file}, defines);
+}
+
 Smoothies::Smoothies(Device& device)
     : device_(device.internals()),
       depthMap_(device),
@@ -76,12 +83,12 @@ Smoothies::Smoothies(Device& device)
       smoothie_(device_.shaders,
                 {"src/techniques/smoothies/smoothie.vert.glsl", "src/techniques/smoothies/smoothie.geom.glsl",
                  "src/techniques/smoothies/smoothie.frag.glsl"}),
-      classify_(device_.shaders, {"src/techniques/smoothies/classify.comp.glsl"}),
-      resolve_(device_.shaders, {"src/techniques/smoothies/resolve.comp.glsl"}),
-      resolveColored_(device_.shaders, {"src/techniques/smoothies/resolve.comp.glsl"}, {"COLORED"}),
-      masked_(device_.shaders, {"src/techniques/smoothies/masked.comp.glsl"}),
-      maskedColored_(device_.shaders, {"src/techniques/smoothies/masked.comp.glsl"}, {"COLORED"}),
       lightProfileProgram_(device_.shaders, {"src/techniques/smoothies/light_profile.comp.glsl"}),
+      classify_(device, "classify.comp.glsl", {}),
+      resolve_(device, "resolve.comp.glsl", {}),
+      resolveColored_(device, "resolve.comp.glsl", {"COLORED"}),
+      masked_(device, "masked.comp.glsl", {}),
+      maskedColored_(device, "masked.comp.glsl", {"COLORED"}),
       edgesAsVertices_(gl::makeFloatVertexArray(4, 4, 4)),
       constants_(2 * maxSmoothieCameras * sizeof(SmoothieConstants), "smoothie constants") {}
 
@@ -171,7 +178,8 @@ void Smoothies::buildSmoothies(bool distant) {
     bindStorage(2, farthestTiles_);
     farthest_.use();
     glUniform1i(0, hasReceiverMap_);
-    glDispatchCompute(tilesAcross, tilesAcross, GLuint(cameras));
+    constexpr GLuint groups = tilesAcross / 8;
+    glDispatchCompute(groups, groups, GLuint(cameras));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 
     // The smoothies.
@@ -301,20 +309,22 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
         if (light.radianceTexture != 0) profileLight(light.radianceTexture);
     }
     view_.bind(inputs.view, lightFromWorldMatrix);
-    resolve(light, out);
+    resolve(inputs, out);
     if (hasMaskedMap_) resolveMasked(inputs, scene, cameras, out);
 }
 
-void Smoothies::useForPicture(const gl::Program& program, const AreaLight& light) const {
-    program.use();
+void Smoothies::useForPicture(const PicturePrograms& programs, const ShadowInputs& inputs) const {
+    (inputs.view.normalTexture != 0 ? programs.withNormals : programs.withoutNormals).use();
     glUniform1i(0, depthMap_.count());
-    glUniform1i(1, light.shape == LightShape::distant);
-    glUniform1i(2, isOneSided(light));
+    glUniform1i(1, inputs.light.shape == LightShape::distant);
+    glUniform1i(2, isOneSided(inputs.light));
 }
 
-void Smoothies::resolve(const AreaLight& light, const VisibilityBuffer& out) {
+void Smoothies::resolve(const ShadowInputs& inputs, const VisibilityBuffer& out) {
     const auto tilesOf = [](int size_px) { return std::size_t((size_px + tileSize_px - 1) / tileSize_px); };
-    reserve(tiles_, 4 * (4 + tilesOf(out.width_px()) * tilesOf(out.height_px())), "smoothies/tiles");
+    reserve(tiles_, 4 * (4 + 2 * tilesOf(out.width_px()) * tilesOf(out.height_px())), "smoothies/tiles");
+    constexpr GLuint none = 0;
+    glClearNamedBufferData(tiles_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
     constexpr std::array<GLuint, 4> noTiles = {0, 0, 1, 0};
     tiles_.write(std::as_bytes(std::span(noTiles)));
     bindStorage(3, tiles_);
@@ -323,7 +333,7 @@ void Smoothies::resolve(const AreaLight& light, const VisibilityBuffer& out) {
     bindVisibility(out, 0);
     {
         const auto pass = timers_.pass("smoothies/classify");
-        useForPicture(classify_, light);
+        useForPicture(classify_, inputs);
         glUniform1i(3, hasSmoothies_);
         gl::dispatchPixels(out.width_px(), out.height_px());
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
@@ -331,7 +341,7 @@ void Smoothies::resolve(const AreaLight& light, const VisibilityBuffer& out) {
     }
     if (!hasSmoothies_) return;
     const auto pass = timers_.pass("smoothies/resolve");
-    useForPicture(out.colored() ? resolveColored_ : resolve_, light);
+    useForPicture(out.colored() ? resolveColored_ : resolve_, inputs);
     if (out.colored()) lightProfile_.bind(5);
     glUniform1ui(3, GLuint(silhouettes_.edgeCount()));
     bindStorage(2, smoothieEdges_);
@@ -356,7 +366,7 @@ void Smoothies::resolveMasked(const ShadowInputs& inputs, const LightSpaceScene&
         }
     }
     const auto pass = timers_.pass("smoothies/masked");
-    useForPicture(out.colored() ? maskedColored_ : masked_, inputs.light);
+    useForPicture(out.colored() ? maskedColored_ : masked_, inputs);
     glUniform1f(3, nearestNearness);
     maskedMap_.bind(3, 0);
     glBindImageTexture(0, out.texture(), 0, GL_FALSE, 0, GL_READ_WRITE, out.colored() ? GL_RGBA16F : GL_R32F);
