@@ -3,7 +3,7 @@
 //
 // What edges tell together is a guess wherever several open on the light, and even one goes by its tangent alone. Points of
 // the light, looked for in the depth map at the edges' own nearness, tell better if the two disagree by more than the
-// points' noise. Where the edges do not lie at about one height, however, they are not taken to see more: a map does not
+// points' noise. Where the edges, and what hides the centre, do not lie at about one height, however, they are not taken to see more: a map does not
 // tell what is under a blocker. And one edge alone is not taken to hide too little: on a bent surface the receiver's own
 // plane, which points are compared with, is in the way.
 
@@ -14,16 +14,21 @@ const vec2 disagreement = vec2(0.05, 0.2);        // from none to all of it
 const vec2 oneHeight = vec2(0.15, 0.3);           // of the way from the receiver to the highest edge
 const float leastRadius_texels = 1.0;             // of the light's image in the map, to show anything
 
-float checkedByMap(Lookup l, float seen, PastEdge past[layersPerCamera], float behind) {
+float checkedByMap(Lookup l, Neighbours n, PastEdge past[layersPerCamera], float seen) {
     float receiver = nearnessOf(l.camera, l.point.posFace.z);
     vec2 range = vec2(1e30, -1e30);
     int several = 0;
     for (int i = 0; i < layersPerCamera; ++i) {
         if (!isEdge(past[i])) continue;
         range = vec2(min(range.x, past[i].nearness), max(range.y, past[i].nearness));
-        if (i == layerOuter ? behind < 1.0 && past[i].seen < 1.0 : past[i].seen > 0.0) ++several;
+        if (i == layerOuter ? n.behind < 1.0 && past[i].seen < 1.0 : past[i].seen > 0.0) ++several;
     }
     if (several == 0) return seen;
+    if (n.behind > 0.0) {
+        // What hides the light's centre does so at a height of its own.
+        float above = storedNearness(l.camera, texelFetch(depthMaps, ivec3(n.behindTexel, l.camera), 0).r);
+        range = vec2(min(range.x, above), max(range.y, above));
+    }
     vec2 place = placeOf(l.camera, l.point.uv);
     float radius = lightExtent(l.camera, place, vec2(1.0, 0.0)).half_m * (range.y - receiver);
     if (radius < leastRadius_texels * smoothies[l.camera].camera.depth.w) return seen;

@@ -43,7 +43,7 @@ Seen visibilityAt(Receiver receiver, bool isWhole) {
 #ifndef COLORED
     SmoothieConstants c = smoothies[l.camera];
     bool isOfLight = c.settings.y == falloffLight && c.settings.z == 1 && c.widths.y == 0.0;
-    if (isWhole && isOfLight) seen = checkedByMap(l, seen, past, n.behind);
+    if (isWhole && isOfLight) seen = checkedByMap(l, n, past, seen);
 #endif
     return seen;
 }
