@@ -118,9 +118,10 @@ TEST_F(SmoothiesTest, DiskLightsHaveTheirOwnRamp) {
               rampTolerance);
 }
 
+/// 0.06 is what the technique promises; boxes have nothing that bends.
 TEST_F(SmoothiesTest, SmallLightsAreNearTheTruth) {
     for (const auto& [name, limit] :
-         {std::pair{"primitives", 0.06}, std::pair{"two-boxes", 0.06}, std::pair{"columns", 0.06}}) {
+         {std::pair{"primitives", 0.06}, std::pair{"two-boxes", 0.03}, std::pair{"columns", 0.03}}) {
         const Scene scene = makeBuiltin(name);
         const LightResult exact = truth(scene, {240, 180});
         EXPECT_LE(judge(exact, render("smoothies", scene, {240, 180})).penumbra_rmse, limit) << name;
