@@ -22,10 +22,6 @@ constexpr int receiverTexel_px = 4;
 constexpr int maskedMapScale = 2;
 constexpr int largestMap_px = 16384;
 
-/// Half the penumbra's smallest width. Edges are known exactly; it softens what is left of the texels between
-/// them.
-constexpr double smallestWidth_texels = 0.25;
-
 void bindStorage(GLuint block, const gl::Buffer& buffer) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block, buffer.name());
 }
@@ -48,17 +44,6 @@ bool hasSize(const AreaLight& light) {
 /// Blocks light with holes in it.
 bool isMasked(const Caster& caster) {
     return caster.casts && caster.alphaMask.texture != 0;
-}
-
-/// How far away, along the camera's axis, the receivers reach.
-double farthestReceiver_m(const LightCamera& camera, const LightSpaceScene& scene) {
-    double farthest_m = 0;
-    for (const ReceiverRegion::Polygon& polygon : scene.receivers.polygons) {
-        for (const glm::dvec3& posLight : polygon) {
-            farthest_m = std::max(farthest_m, (camera.faceFromLight * glm::dvec4(posLight, 1)).z);
-        }
-    }
-    return farthest_m;
 }
 
 }  // namespace
@@ -96,50 +81,27 @@ void Smoothies::describe(ParameterVisitor& visitor) {
     visitor.integer({.name = "map_size",
                      .unit = "texels",
                      .help = "width and height of the shadow map; smoothies are drawn at half of it"},
-                    mapSize_px_, {16, largestMap_px});
+                    settings_.mapSize_px, {16, largestMap_px});
     visitor.boolean({.name = "inner",
                      .help = "smoothies reach into the blocker too, so that the umbra shrinks as the light "
                              "grows; off as in the paper"},
-                    inner_);
+                    settings_.inner);
     visitor.real({.name = "t",
                   .help = "width of every smoothie as a share of half the light camera's window (the paper's "
                           "t, 0.02 to 0.2); 0 derives it from the light's size"},
-                 t_, {0, 1});
+                 settings_.t, {0, 1});
     visitor.boolean({.name = "remap",
                      .help = "alpha follows the distances of blocker and receiver (equation 1); off: the "
                              "same width everywhere"},
-                    remap_);
+                    settings_.remap);
     visitor.choice({.name = "falloff",
                     .help = "how visibility grows across a smoothie: as the light's shape asks for, "
                             "linearly, or sinusoidally"},
-                   falloff_, falloffs);
-}
-
-SmoothieConstants Smoothies::constantsOf(const AreaLight& light, const LightCamera& camera,
-                                         const LightSpaceScene& scene) const {
-    const glm::dmat3 faceFromLight(camera.faceFromLight);
-    const bool rect = light.shape == LightShape::rect;
-    const bool distant = light.shape == LightShape::distant;
-    const glm::dvec2 extent = camera.windowMax - camera.windowMin;
-    const double window = std::max(extent.x, extent.y);
-    const double farthest_m = farthestReceiver_m(camera, scene);
-    // Edges much nearer to the light than to anything they shade: all of the window is in their penumbra
-    // anyway.
-    const double nearest_m = camera.orthographic ? camera.near_m : 1e-4 * farthest_m;
-    return {
-        .camera = camera.constants(mapSize_px_),
-        .halfX = glm::dvec4(faceFromLight[0] * double(rect ? 0.5f * light.width_m : light.radius_m), 0),
-        .halfY = glm::dvec4(faceFromLight[1] * double(rect ? 0.5f * light.height_m : light.radius_m), 0),
-        .widths = {distant ? std::tan(0.5 * light.angle_rad) : light.radius_m, 0.5 * t_ * window,
-                   smallestWidth_texels * window / mapSize_px_, window},
-        .nearness = {camera.orthographic ? -farthest_m : 1 / farthest_m,
-                     camera.orthographic ? -nearest_m : 1 / nearest_m, 0, 0},
-        .settings = {int(light.shape), falloff_, remap_, inner_},
-    };
+                   settings_.falloff, falloffs);
 }
 
 void Smoothies::allocate(int layers) {
-    const int size_px = std::max(1, mapSize_px_ / smoothieTexel_px);
+    const int size_px = std::max(1, settings_.mapSize_px / smoothieTexel_px);
     if (deepest_.width_px() == size_px && deepest_.layers() >= layers) return;
     const auto make = [&](GLenum format, std::string_view label) {
         return gl::Texture(
@@ -248,12 +210,12 @@ void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scen
         depthMap_.render(casting([&](const Caster& caster) {
                              return caster.casts && !(hasMaskedMap_ && isMasked(caster));
                          }),
-                         scene, cameras, mapSize_px_);
+                         scene, cameras, settings_.mapSize_px);
     }
     if (hasMaskedMap_) {
         const auto pass = timers_.pass("smoothies/masked map");
         maskedMap_.render(casting(isMasked), scene, cameras,
-                          std::min(maskedMapScale * mapSize_px_, largestMap_px));
+                          std::min(maskedMapScale * settings_.mapSize_px, largestMap_px));
         if (!saidMasked_) {
             device_.log.write(LogLevel::info,
                               "smoothies: casters with an alpha mask have no silhouette edges; their shadows "
@@ -268,7 +230,7 @@ void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scen
     hasReceiverMap_ = hasSmoothies_ && std::ranges::any_of(receivers, &Caster::casts);
     if (hasReceiverMap_) {
         const auto pass = timers_.pass("smoothies/receiver map");
-        receiverMap_.render(receivers, scene, cameras, std::max(1, mapSize_px_ / receiverTexel_px));
+        receiverMap_.render(receivers, scene, cameras, std::max(1, settings_.mapSize_px / receiverTexel_px));
     }
 }
 
@@ -278,12 +240,13 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const bool distant = light.shape == LightShape::distant;
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
-    const LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px_});
+    const LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = settings_.mapSize_px});
     hasSmoothies_ = hasSize(light) && !cameras.empty();
     drawMaps(inputs, scene, cameras);
 
     std::array<SmoothieConstants, maxSmoothieCameras> constants{};
-    for (std::size_t i = 0; i < cameras.size(); ++i) constants[i] = constantsOf(light, cameras[i], scene);
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        constants[i] = smoothieConstants(settings_, light, cameras[i], scene);
     constants_.write(std::as_bytes(std::span(constants)));
     bindConstants(0);
     if (hasSmoothies_) {
@@ -355,7 +318,7 @@ void Smoothies::resolveMasked(const ShadowInputs& inputs, const LightSpaceScene&
     // The search for blockers is as wide as the nearest of them could make a penumbra.
     float nearestNearness = -std::numeric_limits<float>::infinity();
     for (const LightCamera& camera : cameras) {
-        const float nearest = constantsOf(inputs.light, camera, scene).nearness.y;
+        const float nearest = smoothieConstants(settings_, inputs.light, camera, scene).nearness.y;
         for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
             if (!isMasked(inputs.casters[i]) || std::isnan(scene.boxes[i][0].x)) continue;
             for (const glm::dvec3& corner : scene.boxes[i]) {

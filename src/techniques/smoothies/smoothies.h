@@ -16,7 +16,7 @@
 #include "src/gl/vertex_array.h"
 #include "src/techniques/common/depth_map.h"
 #include "src/techniques/common/view_constants.h"
-#include "src/techniques/smoothies/smoothies_io.h"
+#include "src/techniques/smoothies/smoothie_constants.h"
 
 namespace penumbra {
 
@@ -30,8 +30,6 @@ class Smoothies final : public Technique {
     Statistics statistics() const override;
 
   private:
-    SmoothieConstants constantsOf(const AreaLight& light, const LightCamera& camera,
-                                  const LightSpaceScene& scene) const;
     void drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene, const LightCameras& cameras);
     void allocate(int layers);
     void buildSmoothies(bool distant);
@@ -50,11 +48,7 @@ class Smoothies final : public Technique {
     void resolveMasked(const ShadowInputs& inputs, const LightSpaceScene& scene, const LightCameras& cameras,
                        const VisibilityBuffer& out);
 
-    int mapSize_px_ = 1024;
-    float t_ = 0;
-    bool inner_ = true;
-    bool remap_ = true;
-    int falloff_ = 0;
+    SmoothieSettings settings_;
 
     Device::Internals& device_;
     DepthMap depthMap_, maskedMap_, receiverMap_;
