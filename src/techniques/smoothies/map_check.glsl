@@ -3,16 +3,16 @@
 //
 // What edges tell together is a guess wherever several open on the light, and even one goes by its tangent alone. Points of
 // the light, looked for in the depth map at the edges' own nearness, tell better if the two disagree by more than the
-// points' noise. Where the edges, and what hides the centre, do not lie at about one height, however, they are not taken to see more: a map does not
-// tell what is under a blocker. And one edge alone is not taken to hide too little: on a bent surface the receiver's own
-// plane, which points are compared with, is in the way.
-
+// points' noise. Where the edges, and what hides the centre, do not lie at about one height, however, they are not taken
+// to see more: a map does not tell what is under a blocker. And one edge alone is not taken to hide too little: on a bent
+// surface the receiver's own plane, which points are compared with, is in the way.
 #include "src/techniques/smoothies/light_points.glsl"
 
-const int points = 32;                            // some 0.03 rms off, on a straight edge
-const vec2 disagreement = vec2(0.05, 0.2);        // from none to all of it
-const vec2 oneHeight = vec2(0.15, 0.3);           // of the way from the receiver to the highest edge
-const float leastRadius_texels = 1.0;             // of the light's image in the map, to show anything
+const int points = 32;                      // some 0.03 rms off, on a straight edge
+const float texelNoise = 0.15;              // and more by this, over the radius of the light's image in texels
+const vec2 disagreement = vec2(0.05, 0.2);  // from where on points count, and count alone
+const vec2 oneHeight = vec2(0.15, 0.3);     // of the way from the receiver to the highest edge
+const float leastRadius_texels = 1.0;       // below, the map shows nothing of the light's size
 
 float checkedByMap(Lookup l, Neighbours n, PastEdge past[layersPerCamera], float seen) {
     float receiver = nearnessOf(l.camera, l.point.posFace.z);
@@ -30,8 +30,9 @@ float checkedByMap(Lookup l, Neighbours n, PastEdge past[layersPerCamera], float
         range = vec2(min(range.x, above), max(range.y, above));
     }
     vec2 place = placeOf(l.camera, l.point.uv);
-    float radius = lightExtent(l.camera, place, vec2(1.0, 0.0)).half_m * (range.y - receiver);
-    if (radius < leastRadius_texels * smoothies[l.camera].camera.depth.w) return seen;
+    float radius_texels = lightExtent(l.camera, place, vec2(1.0, 0.0)).half_m * (range.y - receiver) /
+                          smoothies[l.camera].camera.depth.w;
+    if (radius_texels < leastRadius_texels) return seen;
 
     // Edges at two heights: the upper ones' points count only what is up there, and likewise.
     float spread = (range.y - range.x) / (range.y - receiver), middle = 0.5 * (range.x + range.y);
@@ -49,7 +50,7 @@ float checkedByMap(Lookup l, Neighbours n, PastEdge past[layersPerCamera], float
     }
     if (known < 0.5 * float(points)) return seen;
     float difference = 1.0 - hidden / known - seen;
-    float trust = smoothstep(disagreement.x, disagreement.y, abs(difference));
+    float trust = smoothstep(disagreement.x, disagreement.y, abs(difference) - texelNoise / radius_texels);
     if (difference > 0.0) trust *= 1.0 - smoothstep(oneHeight.x, oneHeight.y, spread);
     return difference > 0.0 || several > 1 ? seen + trust * difference : seen;
 }
