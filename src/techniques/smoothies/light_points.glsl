@@ -18,7 +18,7 @@ vec3 lightPoint(int i, vec2 place) {
 struct Glance {
     bool isInWindow;  // or else nothing is known
     bool isHidden;
-    float nearness;   // of what the map holds there
+    float nearness;  // of what the map holds there
 };
 
 // From the receiver to a point of the light, as far as to blockers of some nearness.
@@ -30,7 +30,8 @@ Glance glanceAt(Lookup l, int i, float blocker) {
     if (any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) return Glance(false, false, 0.0);
     float size_px = float(textureSize(depthMaps, 0).x);
     ivec2 texel = ivec2(uv * size_px);
-    float nearness = storedNearness(l.camera, texelFetch(depthMaps, ivec3(texel, l.camera), 0).r);
+    float stored = texelFetch(depthMaps, ivec3(texel, l.camera), 0).r;
     float plane_m = receiverPlaneDepth_m(l.camera, l.point, l.normalFace, (vec2(texel) + 0.5) / size_px, 1e6 * l.point.texel_m);
-    return Glance(true, nearnessOf(l.camera, plane_m - l.tolerance_m) < nearness, nearness);
+    bool isHidden = plane_m - l.tolerance_m > depthFace_m(l.camera, stored);
+    return Glance(true, isHidden, storedNearness(l.camera, stored));
 }

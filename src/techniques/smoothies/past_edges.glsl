@@ -7,9 +7,9 @@ layout(std430, binding = 2) readonly buffer SmoothieEdges { SmoothieEdge smoothi
 layout(location = 3) uniform uint capacity;  // edges for each camera
 
 struct PastEdge {
-    Seen seen;        // the part of the light; all of it past no outer edge, nothing past no inner one
-    vec2 outward;     // away from the blocker, unit length; zero where there is no edge
-    float nearness;   // of the blocker
+    Seen seen;       // the part of the light: all of it where there is no outer edge, nothing where no inner one
+    vec2 outward;    // away from the blocker, unit length; zero where there is no edge
+    float nearness;  // of the blocker
 };
 
 PastEdge pastNone(int layer) { return PastEdge(Seen(layer == layerOuter ? 1.0 : 0.0), vec2(0.0), 0.0); }

@@ -75,7 +75,7 @@ Smoothies::Smoothies(Device& device)
       masked_(device, "masked.comp.glsl", {}),
       maskedColored_(device, "masked.comp.glsl", {"COLORED"}),
       edgesAsVertices_(gl::makeFloatVertexArray(4, 4, 4)),
-      constants_(2 * maxSmoothieCameras * sizeof(SmoothieConstants), "smoothie constants") {}
+      constants_(std::size_t(2) * maxSmoothieCameras * sizeof(SmoothieConstants), "smoothie constants") {}
 
 void Smoothies::describe(ParameterVisitor& visitor) {
     visitor.integer({.name = "map_size",
