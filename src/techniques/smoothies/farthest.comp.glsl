@@ -10,36 +10,18 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(std430, binding = 2) writeonly buffer Tiles { float farthestNearness[]; };
 
-shared uint smallest;
-
-// Floats in the order of unsigned integers.
-uint ordered(float value) {
-    uint bits = floatBitsToUint(value);
-    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
-}
-
-float unordered(uint bits) {
-    return uintBitsToFloat((bits & 0x80000000u) != 0u ? bits & 0x7fffffffu : ~bits);
-}
-
+// A tile an invocation: barriers cost software rasterisers more than the texels do.
 void main() {
-    if (gl_LocalInvocationIndex == 0u) smallest = 0xffffffffu;
-    barrier();
     int size_px = textureSize(depthMaps, 0).x;
-    int camera = int(gl_WorkGroupID.z);
-    ivec2 begin = ivec2(gl_WorkGroupID.xy) * size_px / tilesAcross;
-    ivec2 end = (ivec2(gl_WorkGroupID.xy) + 1) * size_px / tilesAcross;
+    int camera = int(gl_GlobalInvocationID.z);
+    ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 begin = tile * size_px / tilesAcross, end = (tile + 1) * size_px / tilesAcross;
     float nearness = smoothies[camera].nearness.y;
-    for (int y = begin.y + 4 * int(gl_LocalInvocationID.y); y < end.y; y += 32) {
-        for (int x = begin.x + 4 * int(gl_LocalInvocationID.x); x < end.x; x += 32) {
+    for (int y = begin.y; y < end.y; y += 4) {
+        for (int x = begin.x; x < end.x; x += 4) {
             ivec2 texel = ivec2(x, y);
             nearness = min(nearness, max(blockerNearness(camera, camera, texel), receiverNearness(camera, camera, texel)));
         }
     }
-    atomicMin(smallest, ordered(nearness));
-    barrier();
-    if (gl_LocalInvocationIndex == 0u) {
-        uint tile = (gl_WorkGroupID.z * uint(tilesAcross) + gl_WorkGroupID.y) * uint(tilesAcross) + gl_WorkGroupID.x;
-        farthestNearness[tile] = unordered(smallest);
-    }
+    farthestNearness[(camera * tilesAcross + tile.y) * tilesAcross + tile.x] = nearness;
 }

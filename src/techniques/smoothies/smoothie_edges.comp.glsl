@@ -28,12 +28,13 @@ bool clip(inout vec2 segment, float fa, float fb) {
 // The widest that the smoothie of an edge can be at both ends, above a surface at nearness `receiver`. Between them it is
 // no wider than in proportion.
 vec2 largestWidths(int camera, vec2 placeA, vec2 placeB, vec2 blocker, float receiver) {
-    // The two axes bound the extent in every direction, and the ends bound it in between: it is convex in the place.
+    // The light's image lies within a box, whose corner is the farthest in any direction. The ends bound it in between: it
+    // is convex in the place.
     vec2 half_m;
     for (int i = 0; i < 2; ++i) {
         vec2 place = i == 0 ? placeA : placeB;
-        half_m[i] =
-            lightExtent(camera, place, vec2(1.0, 0.0)).half_m + lightExtent(camera, place, vec2(0.0, 1.0)).half_m;
+        half_m[i] = length(vec2(lightExtent(camera, place, vec2(1.0, 0.0)).half_m,
+                                lightExtent(camera, place, vec2(0.0, 1.0)).half_m));
     }
     float largest = max(half_m.x, half_m.y);
     vec2 widths =

@@ -18,6 +18,10 @@ constexpr std::array<std::string_view, 3> falloffs = {"light", "linear", "sinuso
 /// Receivers that cast nothing are mapped at a quarter of the map's size: only widths depend on them.
 constexpr int receiverTexel_px = 4;
 
+/// What the map of casters with holes has more along each axis: edges of holes are known by its texels alone.
+constexpr int maskedMapScale = 2;
+constexpr int largestMap_px = 16384;
+
 void bindStorage(GLuint block, const gl::Buffer& buffer) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block, buffer.name());
 }
@@ -42,18 +46,14 @@ bool isMasked(const Caster& caster) {
     return caster.casts && caster.alphaMask.texture != 0;
 }
 
-/// How far away, along the camera's axis, the receivers reach.
-double farthestReceiver_m(const LightCamera& camera, const LightSpaceScene& scene) {
-    double farthest_m = 0;
-    for (const ReceiverRegion::Polygon& polygon : scene.receivers.polygons) {
-        for (const glm::dvec3& posLight : polygon) {
-            farthest_m = std::max(farthest_m, (camera.faceFromLight * glm::dvec4(posLight, 1)).z);
-        }
-    }
-    return farthest_m;
-}
-
 }  // namespace
+
+Smoothies::PicturePrograms::PicturePrograms(Device& device, const std::string& file,
+                                            std::vector<std::string> defines)
+    : withoutNormals(device.internals().shaders, {"src/techniques/smoothies/" + file}, defines) {
+    defines.emplace_back("WITH_NORMALS");
+    withNormals = gl::Program(device.internals().shaders, {"src/techniques/smoothies/" + file}, defines);
+}
 
 Smoothies::Smoothies(Device& device)
     : device_(device.internals()),
@@ -68,63 +68,40 @@ Smoothies::Smoothies(Device& device)
       smoothie_(device_.shaders,
                 {"src/techniques/smoothies/smoothie.vert.glsl", "src/techniques/smoothies/smoothie.geom.glsl",
                  "src/techniques/smoothies/smoothie.frag.glsl"}),
-      classify_(device_.shaders, {"src/techniques/smoothies/classify.comp.glsl"}),
-      resolve_(device_.shaders, {"src/techniques/smoothies/resolve.comp.glsl"}),
-      resolveColored_(device_.shaders, {"src/techniques/smoothies/resolve.comp.glsl"}, {"COLORED"}),
-      masked_(device_.shaders, {"src/techniques/smoothies/masked.comp.glsl"}),
-      maskedColored_(device_.shaders, {"src/techniques/smoothies/masked.comp.glsl"}, {"COLORED"}),
       lightProfileProgram_(device_.shaders, {"src/techniques/smoothies/light_profile.comp.glsl"}),
+      classify_(device, "classify.comp.glsl", {}),
+      resolve_(device, "resolve.comp.glsl", {}),
+      resolveColored_(device, "resolve.comp.glsl", {"COLORED"}),
+      masked_(device, "masked.comp.glsl", {}),
+      maskedColored_(device, "masked.comp.glsl", {"COLORED"}),
       edgesAsVertices_(gl::makeFloatVertexArray(4, 4, 4)),
-      constants_(2 * maxSmoothieCameras * sizeof(SmoothieConstants), "smoothie constants") {}
+      constants_(std::size_t(2) * maxSmoothieCameras * sizeof(SmoothieConstants), "smoothie constants") {}
 
 void Smoothies::describe(ParameterVisitor& visitor) {
     visitor.integer({.name = "map_size",
                      .unit = "texels",
                      .help = "width and height of the shadow map; smoothies are drawn at half of it"},
-                    mapSize_px_, {16, 16384});
+                    settings_.mapSize_px, {16, largestMap_px});
     visitor.boolean({.name = "inner",
                      .help = "smoothies reach into the blocker too, so that the umbra shrinks as the light "
                              "grows; off as in the paper"},
-                    inner_);
+                    settings_.inner);
     visitor.real({.name = "t",
                   .help = "width of every smoothie as a share of half the light camera's window (the paper's "
                           "t, 0.02 to 0.2); 0 derives it from the light's size"},
-                 t_, {0, 1});
+                 settings_.t, {0, 1});
     visitor.boolean({.name = "remap",
                      .help = "alpha follows the distances of blocker and receiver (equation 1); off: the "
                              "same width everywhere"},
-                    remap_);
+                    settings_.remap);
     visitor.choice({.name = "falloff",
                     .help = "how visibility grows across a smoothie: as the light's shape asks for, "
                             "linearly, or sinusoidally"},
-                   falloff_, falloffs);
-}
-
-SmoothieConstants Smoothies::constantsOf(const AreaLight& light, const LightCamera& camera,
-                                         const LightSpaceScene& scene) const {
-    const glm::dmat3 faceFromLight(camera.faceFromLight);
-    const bool rect = light.shape == LightShape::rect;
-    const bool distant = light.shape == LightShape::distant;
-    const glm::dvec2 extent = camera.windowMax - camera.windowMin;
-    const double window = std::max(extent.x, extent.y);
-    const double farthest_m = farthestReceiver_m(camera, scene);
-    // Edges much nearer to the light than to anything they shade: all of the window is in their penumbra
-    // anyway.
-    const double nearest_m = camera.orthographic ? camera.near_m : 1e-4 * farthest_m;
-    return {
-        .camera = camera.constants(mapSize_px_),
-        .halfX = glm::dvec4(faceFromLight[0] * double(rect ? 0.5f * light.width_m : light.radius_m), 0),
-        .halfY = glm::dvec4(faceFromLight[1] * double(rect ? 0.5f * light.height_m : light.radius_m), 0),
-        .widths = {distant ? std::tan(0.5 * light.angle_rad) : light.radius_m, 0.5 * t_ * window,
-                   window / mapSize_px_, window},
-        .nearness = {camera.orthographic ? -farthest_m : 1 / farthest_m,
-                     camera.orthographic ? -nearest_m : 1 / nearest_m, 0, 0},
-        .settings = {int(light.shape), falloff_, remap_, inner_},
-    };
+                   settings_.falloff, falloffs);
 }
 
 void Smoothies::allocate(int layers) {
-    const int size_px = std::max(1, mapSize_px_ / smoothieTexel_px);
+    const int size_px = std::max(1, settings_.mapSize_px / smoothieTexel_px);
     if (deepest_.width_px() == size_px && deepest_.layers() >= layers) return;
     const auto make = [&](GLenum format, std::string_view label) {
         return gl::Texture(
@@ -163,7 +140,8 @@ void Smoothies::buildSmoothies(bool distant) {
     bindStorage(2, farthestTiles_);
     farthest_.use();
     glUniform1i(0, hasReceiverMap_);
-    glDispatchCompute(tilesAcross, tilesAcross, GLuint(cameras));
+    constexpr GLuint groups = tilesAcross / 8;
+    glDispatchCompute(groups, groups, GLuint(cameras));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 
     // The smoothies.
@@ -232,11 +210,12 @@ void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scen
         depthMap_.render(casting([&](const Caster& caster) {
                              return caster.casts && !(hasMaskedMap_ && isMasked(caster));
                          }),
-                         scene, cameras, mapSize_px_);
+                         scene, cameras, settings_.mapSize_px);
     }
     if (hasMaskedMap_) {
         const auto pass = timers_.pass("smoothies/masked map");
-        maskedMap_.render(casting(isMasked), scene, cameras, mapSize_px_);
+        maskedMap_.render(casting(isMasked), scene, cameras,
+                          std::min(maskedMapScale * settings_.mapSize_px, largestMap_px));
         if (!saidMasked_) {
             device_.log.write(LogLevel::info,
                               "smoothies: casters with an alpha mask have no silhouette edges; their shadows "
@@ -251,7 +230,7 @@ void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scen
     hasReceiverMap_ = hasSmoothies_ && std::ranges::any_of(receivers, &Caster::casts);
     if (hasReceiverMap_) {
         const auto pass = timers_.pass("smoothies/receiver map");
-        receiverMap_.render(receivers, scene, cameras, std::max(1, mapSize_px_ / receiverTexel_px));
+        receiverMap_.render(receivers, scene, cameras, std::max(1, settings_.mapSize_px / receiverTexel_px));
     }
 }
 
@@ -261,12 +240,13 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const bool distant = light.shape == LightShape::distant;
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
-    const LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px_});
+    const LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = settings_.mapSize_px});
     hasSmoothies_ = hasSize(light) && !cameras.empty();
     drawMaps(inputs, scene, cameras);
 
     std::array<SmoothieConstants, maxSmoothieCameras> constants{};
-    for (std::size_t i = 0; i < cameras.size(); ++i) constants[i] = constantsOf(light, cameras[i], scene);
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        constants[i] = smoothieConstants(settings_, light, cameras[i], scene);
     constants_.write(std::as_bytes(std::span(constants)));
     bindConstants(0);
     if (hasSmoothies_) {
@@ -292,20 +272,22 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
         if (light.radianceTexture != 0) profileLight(light.radianceTexture);
     }
     view_.bind(inputs.view, lightFromWorldMatrix);
-    resolve(light, out);
+    resolve(inputs, out);
     if (hasMaskedMap_) resolveMasked(inputs, scene, cameras, out);
 }
 
-void Smoothies::useForPicture(const gl::Program& program, const AreaLight& light) const {
-    program.use();
+void Smoothies::useForPicture(const PicturePrograms& programs, const ShadowInputs& inputs) const {
+    (inputs.view.normalTexture != 0 ? programs.withNormals : programs.withoutNormals).use();
     glUniform1i(0, depthMap_.count());
-    glUniform1i(1, light.shape == LightShape::distant);
-    glUniform1i(2, isOneSided(light));
+    glUniform1i(1, inputs.light.shape == LightShape::distant);
+    glUniform1i(2, isOneSided(inputs.light));
 }
 
-void Smoothies::resolve(const AreaLight& light, const VisibilityBuffer& out) {
+void Smoothies::resolve(const ShadowInputs& inputs, const VisibilityBuffer& out) {
     const auto tilesOf = [](int size_px) { return std::size_t((size_px + tileSize_px - 1) / tileSize_px); };
-    reserve(tiles_, 4 * (4 + tilesOf(out.width_px()) * tilesOf(out.height_px())), "smoothies/tiles");
+    reserve(tiles_, 4 * (4 + 2 * tilesOf(out.width_px()) * tilesOf(out.height_px())), "smoothies/tiles");
+    constexpr GLuint none = 0;
+    glClearNamedBufferData(tiles_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
     constexpr std::array<GLuint, 4> noTiles = {0, 0, 1, 0};
     tiles_.write(std::as_bytes(std::span(noTiles)));
     bindStorage(3, tiles_);
@@ -314,7 +296,7 @@ void Smoothies::resolve(const AreaLight& light, const VisibilityBuffer& out) {
     bindVisibility(out, 0);
     {
         const auto pass = timers_.pass("smoothies/classify");
-        useForPicture(classify_, light);
+        useForPicture(classify_, inputs);
         glUniform1i(3, hasSmoothies_);
         gl::dispatchPixels(out.width_px(), out.height_px());
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
@@ -322,7 +304,7 @@ void Smoothies::resolve(const AreaLight& light, const VisibilityBuffer& out) {
     }
     if (!hasSmoothies_) return;
     const auto pass = timers_.pass("smoothies/resolve");
-    useForPicture(out.colored() ? resolveColored_ : resolve_, light);
+    useForPicture(out.colored() ? resolveColored_ : resolve_, inputs);
     if (out.colored()) lightProfile_.bind(5);
     glUniform1ui(3, GLuint(silhouettes_.edgeCount()));
     bindStorage(2, smoothieEdges_);
@@ -336,7 +318,7 @@ void Smoothies::resolveMasked(const ShadowInputs& inputs, const LightSpaceScene&
     // The search for blockers is as wide as the nearest of them could make a penumbra.
     float nearestNearness = -std::numeric_limits<float>::infinity();
     for (const LightCamera& camera : cameras) {
-        const float nearest = constantsOf(inputs.light, camera, scene).nearness.y;
+        const float nearest = smoothieConstants(settings_, inputs.light, camera, scene).nearness.y;
         for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
             if (!isMasked(inputs.casters[i]) || std::isnan(scene.boxes[i][0].x)) continue;
             for (const glm::dvec3& corner : scene.boxes[i]) {
@@ -347,7 +329,7 @@ void Smoothies::resolveMasked(const ShadowInputs& inputs, const LightSpaceScene&
         }
     }
     const auto pass = timers_.pass("smoothies/masked");
-    useForPicture(out.colored() ? maskedColored_ : masked_, inputs.light);
+    useForPicture(out.colored() ? maskedColored_ : masked_, inputs);
     glUniform1f(3, nearestNearness);
     maskedMap_.bind(3, 0);
     glBindImageTexture(0, out.texture(), 0, GL_FALSE, 0, GL_READ_WRITE, out.colored() ? GL_RGBA16F : GL_R32F);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "penumbra/technique.h"
@@ -15,7 +16,7 @@
 #include "src/gl/vertex_array.h"
 #include "src/techniques/common/depth_map.h"
 #include "src/techniques/common/view_constants.h"
-#include "src/techniques/smoothies/smoothies_io.h"
+#include "src/techniques/smoothies/smoothie_constants.h"
 
 namespace penumbra {
 
@@ -29,8 +30,6 @@ class Smoothies final : public Technique {
     Statistics statistics() const override;
 
   private:
-    SmoothieConstants constantsOf(const AreaLight& light, const LightCamera& camera,
-                                  const LightSpaceScene& scene) const;
     void drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene, const LightCameras& cameras);
     void allocate(int layers);
     void buildSmoothies(bool distant);
@@ -38,24 +37,26 @@ class Smoothies final : public Technique {
     void bindSurfaces() const;
     void drawSmoothies();
     void profileLight(GLuint radianceTexture);
-    void useForPicture(const gl::Program& program, const AreaLight& light) const;
-    void resolve(const AreaLight& light, const VisibilityBuffer& out);
+    /// A program of the picture's passes, for receivers with normals of their own or without: software
+    /// rasterizers take both sides of a branch.
+    struct PicturePrograms {
+        PicturePrograms(Device& device, const std::string& file, std::vector<std::string> defines);
+        gl::Program withoutNormals, withNormals;
+    };
+    void useForPicture(const PicturePrograms& programs, const ShadowInputs& inputs) const;
+    void resolve(const ShadowInputs& inputs, const VisibilityBuffer& out);
     void resolveMasked(const ShadowInputs& inputs, const LightSpaceScene& scene, const LightCameras& cameras,
                        const VisibilityBuffer& out);
 
-    int mapSize_px_ = 1024;
-    float t_ = 0;
-    bool inner_ = true;
-    bool remap_ = true;
-    int falloff_ = 0;
+    SmoothieSettings settings_;
 
     Device::Internals& device_;
     DepthMap depthMap_, maskedMap_, receiverMap_;
     bool hasMaskedMap_ = false;
     bool hasReceiverMap_ = false;
     SilhouetteExtractor silhouettes_;
-    gl::Program farthest_, build_, clearNormals_, addNormals_, smoothie_, classify_, resolve_,
-        resolveColored_, masked_, maskedColored_, lightProfileProgram_;
+    gl::Program farthest_, build_, clearNormals_, addNormals_, smoothie_, lightProfileProgram_;
+    PicturePrograms classify_, resolve_, resolveColored_, masked_, maskedColored_;
     gl::Buffer farthestTiles_, vertexNormals_, smoothieEdges_, tiles_;
     gl::VertexArrayHandle edgesAsVertices_;
     gl::Texture deepest_, order_, lightProfile_;

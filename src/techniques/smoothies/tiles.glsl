@@ -8,10 +8,13 @@ layout(std430, binding = 3) buffer Tiles {
     uint tileRows;
     uint tileDepth;  // 1
     uint tileCount;
-    uint tiles[];  // x + 65536 y
+    uint tiles[];  // x + 65536 y; behind them, for each tile of the picture whether it is listed
 };
 
-void listTile(uvec2 tile) {
+// By any pixel of a tile: no shared memory, since barriers are slow on software rasterisers.
+void listTile(uvec2 tile, uvec2 tilesInPicture) {
+    uint listed = tilesInPicture.x * (tilesInPicture.y + tile.y) + tile.x;
+    if (tiles[listed] != 0u || atomicExchange(tiles[listed], 1u) != 0u) return;
     uint index = atomicAdd(tileCount, 1u);
     tiles[index] = tile.x + 65536u * tile.y;
     atomicMax(tileColumns, min(index + 1u, uint(tilesPerRow)));

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a light and its camera mean for the size of smoothies: see README.md, "The size of a smoothie".
+#pragma once
+
+#include "src/techniques/common/light_camera.h"
+#include "src/techniques/smoothies/smoothies_io.h"
+
+namespace penumbra {
+
+/// The technique's parameters, as Smoothies::describe names them.
+struct SmoothieSettings {
+    int mapSize_px = 1024;
+    float t = 0;  ///< in half window widths; 0: from the light
+    bool inner = true;
+    bool remap = true;
+    int falloff = 0;
+};
+
+SmoothieConstants smoothieConstants(const SmoothieSettings& settings, const AreaLight& light,
+                                    const LightCamera& camera, const LightSpaceScene& scene);
+
+}  // namespace penumbra
