@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
-// The edge of every cell in the listed blocks. First layers: outlines of the casters' union, before nothing; then inner
-// edges, where a caster stands out against another.
+// The edges of every cell in the listed blocks, one of each kind.
 //
 // A cell's edge is the texel nearest to its middle, and the line through the middles of all sides around that which do not
 // look the other way. Its normal is the sum of these sides' directions: for a straight silhouette exact but for its ends,
@@ -15,7 +14,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/shadow_width_map/edge_cells.glsl"
 
 layout(binding = 0, rgba32ui) uniform writeonly uimage2DArray cellEdges;
-layout(location = 0) uniform bool withInnerEdges;
+layout(binding = 2) uniform sampler2DArray farthestMaps;
+layout(location = 0) uniform int kinds;
 layout(location = 1) uniform int cell_px;  // 1, 2, 4 or 8
 layout(location = 2) uniform int mapCount;
 
@@ -23,13 +23,27 @@ const int cellsOfKind = 64;  // at most
 const int around_px = 4;
 const int tile_px = 8 + 2 * around_px;
 shared uint sidesAt[tile_px * tile_px];
-shared uint nearest[2 * cellsOfKind];
+shared uint nearest[3 * cellsOfKind];
 
-float stored(ivec3 texel) {
-    return texelFetch(depthMaps, ivec3(clamp(texel.xy, ivec2(0), textureSize(depthMaps, 0).xy - 1), texel.z), 0).r;
+ivec3 inMap(ivec3 texel) { return ivec3(clamp(texel.xy, ivec2(0), textureSize(depthMaps, 0).xy - 1), texel.z); }
+float stored(ivec3 texel) { return texelFetch(depthMaps, inMap(texel), 0).r; }
+float storedFarthest(ivec3 texel) { return texelFetch(farthestMaps, inMap(texel), 0).r; }
+
+// A texel's sides where what is farthest ends beneath something else, in the order of the directions.
+uint hiddenSidesOf(ivec3 texel) {
+    float here = storedFarthest(texel);
+    uint sides = 0u;
+    if (stored(texel) - here <= jumpBelow(texel.z, stored(texel))) return 0u;
+    for (int i = 0; i < 4; ++i) {
+        ivec3 step = ivec3(edgeDirections[i], 0);
+        float before = storedFarthest(texel - step), next = storedFarthest(texel + step);
+        float bend = min(next - 2.0 * here + before, 2.0 * next - here - storedFarthest(texel + 2 * step));
+        if (next < 1.0 && min(next - here, bend) > jumpBelow(texel.z, next)) sides |= 1u << i;
+    }
+    return sides;
 }
 
-// A texel's sides that are edges: 4 bits of outlines, in the order of the directions, then 4 of inner edges.
+// A texel's sides that are edges: 4 bits a kind.
 uint sidesOf(ivec3 texel) {
     float here = stored(texel), jump = jumpBelow(texel.z, here);
     bool isInMap = all(greaterThanEqual(texel.xy, ivec2(0))) && all(lessThan(texel.xy, textureSize(depthMaps, 0).xy));
@@ -41,9 +55,9 @@ uint sidesOf(ivec3 texel) {
         float beyond = stored(texel + ivec3(2 * edgeDirections[i], 0));
         float bend = min(2.0 * here - around[i ^ 1] - around[i], here + beyond - 2.0 * around[i]);
         if (around[i] == 0.0) sides |= 1u << i;
-        else if (withInnerEdges && here - around[i] > jump && bend > jump) sides |= 16u << i;
+        else if (kinds > 1 && here - around[i] > jump && bend > jump) sides |= 16u << i;
     }
-    return sides;
+    return kinds > 2 ? sides | hiddenSidesOf(texel) << 8 : sides;
 }
 
 // The direction that a texel's sides (4 bits) look to; where they cancel, that of the first.
@@ -100,11 +114,13 @@ void keepEdge(ivec3 corner, int cell, int kind, int place) {
     vec2 along = vec2(-normal.y, normal.x);
     middle += along * dot(vec2(texel) + 0.5 - middle, along);
     texel += corner.xy;
-    uvec4 edge = packEdge(texel, direction, middle + vec2(corner.xy), normal, stored(ivec3(texel, corner.z)),
-                          stored(ivec3(texel + edgeDirections[direction], corner.z)));
+    ivec3 here = ivec3(texel, corner.z), behind = here + ivec3(edgeDirections[direction], 0);
+    uvec4 edge = packEdge(texel, direction, middle + vec2(corner.xy), normal,
+                          kind == 2 ? storedFarthest(here) : stored(here),
+                          kind == 2 ? storedFarthest(behind) : stored(behind));
     int across = 8 / cell_px;
-    ivec2 inMap = (corner.xy + around_px) / cell_px + ivec2(cell % across, cell / across);
-    imageStore(cellEdges, ivec3(inMap, corner.z + kind * mapCount), edge);
+    ivec2 place_cells = (corner.xy + around_px) / cell_px + ivec2(cell % across, cell / across);
+    imageStore(cellEdges, ivec3(place_cells, corner.z + kind * mapCount), edge);
 }
 
 void main() {
@@ -115,19 +131,19 @@ void main() {
 
     for (int i = lane; i < tile_px * tile_px; i += 64)
         sidesAt[i] = sidesOf(corner + ivec3(i % tile_px, i / tile_px, 0));
-    nearest[lane] = nearest[lane + cellsOfKind] = 0xffffffffu;
+    for (int kind = 0; kind < 3; ++kind) nearest[cellsOfKind * kind + lane] = 0xffffffffu;
     barrier();
 
     int own = (within.y + around_px) * tile_px + within.x + around_px;
     int cell = within.y / cell_px * across + within.x / cell_px;
     ivec2 fromMiddle = 2 * (within % cell_px) + 1 - cell_px;
     uint key = uint(fromMiddle.x * fromMiddle.x + fromMiddle.y * fromMiddle.y) << 16 | uint(own);
-    for (int kind = 0; kind < 2; ++kind) {
+    for (int kind = 0; kind < kinds; ++kind) {
         if ((sidesAt[own] >> (4 * kind) & 15u) != 0u) atomicMin(nearest[cellsOfKind * kind + cell], key);
     }
     barrier();
 
-    for (int kind = 0; kind < 2; ++kind) {
+    for (int kind = 0; kind < kinds; ++kind) {
         uint key = nearest[cellsOfKind * kind + lane];
         if (key != 0xffffffffu) keepEdge(corner, lane, kind, int(key & 0xffffu));
     }

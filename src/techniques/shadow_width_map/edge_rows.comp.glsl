@@ -15,7 +15,7 @@ layout(binding = 0) uniform usampler2DArray cellEdges;
 layout(binding = 1) uniform sampler2DArray columns_px;
 layout(binding = 0, rgba32ui) uniform uimage2DArray nearestEdges;
 layout(binding = 1, rg32f) uniform image2DArray widths;
-layout(location = 0) uniform bool withInnerEdges;
+layout(location = 0) uniform int kinds;
 layout(location = 1) uniform int cell_px;
 layout(location = 2) uniform int mapCount;
 layout(location = 3) uniform float halfExtent;  // the light's largest
@@ -77,8 +77,8 @@ void sweepRow(ivec3 cell, int cells) {
             if (cell.x == p.begin && --top >= 0) p = unpack(imageLoad(nearestEdges, ivec3(top, cell.yz)));
         }
         imageStore(nearestEdges, cell, edge);
-        // In the outlines' layer for both kinds.
-        if (cell.z < mapCount && withInnerEdges) width.y = max(width.y, imageLoad(widths, cell + ivec3(0, 0, mapCount)).y);
+        // In the outlines' layer for all kinds.
+        if (cell.z + mapCount < kinds * mapCount) width.y = max(width.y, imageLoad(widths, cell + ivec3(0, 0, mapCount)).y);
         imageStore(widths, cell, width.xyxy);
     }
 }
@@ -87,6 +87,5 @@ void main() {
     int cells = imageSize(nearestEdges).x;
     ivec3 cell = ivec3(0, gl_GlobalInvocationID.xy);
     if (cell.y >= cells) return;
-    if (withInnerEdges) sweepRow(cell + ivec3(0, 0, mapCount), cells);
-    sweepRow(cell, cells);
+    for (int kind = kinds - 1; kind >= 0; --kind) sweepRow(cell + ivec3(0, 0, kind * mapCount), cells);
 }

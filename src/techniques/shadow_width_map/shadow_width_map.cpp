@@ -58,6 +58,7 @@ float largestHalfExtent(const AreaLight& light) {
 
 ShadowWidthMap::ShadowWidthMap(Device& device)
     : depthMap_(device),
+      farthestMap_(device),
       edgeBlocks_(device.internals().shaders, shader("edge_blocks.comp.glsl")),
       cellEdges_(device.internals().shaders, shader("cell_edges.comp.glsl")),
       edgeColumns_(device.internals().shaders, shader("edge_columns.comp.glsl")),
@@ -134,12 +135,15 @@ void ShadowWidthMap::makeMaps(const ShadowInputs& inputs, const LightSpaceScene&
                               std::span<const LightCamera> cameras) {
     const bool isAnyBoth = std::ranges::any_of(
         inputs.casters, [](const Caster& caster) { return caster.casts && caster.receives; });
-    hasInnerEdges_ = mode_ == exact && innerEdges_ && isAnyBoth;
     backFaces_ = mode_ != exact && !isAnyBoth;
     {
         const auto pass = timers_.pass("shadow-width/depth map");
         depthMap_.render(inputs.casters, scene, cameras, mapSize_px_,
                          backFaces_ ? DepthMap::Surface::farthestBack : DepthMap::Surface::nearest);
+        const std::pmr::vector<Caster> hiding = castersThatHideEdges(inputs, scene, cameras);
+        kinds_ = mode_ != exact || !innerEdges_ ? 1 : !hiding.empty() ? 3 : isAnyBoth ? 2 : 1;
+        if (kinds_ == 3)
+            farthestMap_.render(hiding, scene, cameras, mapSize_px_, DepthMap::Surface::farthestFront);
     }
     if (cameras.empty()) return;
     faceFromLight_ = cameras.front().faceFromLight;
@@ -174,7 +178,7 @@ void ShadowWidthMap::allocateWidths(bool scratch) {
 }
 
 void ShadowWidthMap::findNearestEdges(const AreaLight& light) {
-    const int layers = depthMap_.count() * (hasInnerEdges_ ? 2 : 1);
+    const int layers = depthMap_.count() * kinds_;
     allocate(cells_, cellsAcross(), layers, GL_RGBA32UI, "edges in cells");
     allocate(columns_, cellsAcross(), layers, GL_R32F, "nearest edges in columns");
     allocate(nearest_, cellsAcross(), layers, GL_RGBA32UI, "nearest edges");
@@ -187,11 +191,12 @@ void ShadowWidthMap::findNearestEdges(const AreaLight& light) {
     glClearTexImage(cells_.name(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, nullptr);
 
     depthMap_.bind(3, 0);
+    if (kinds_ == 3) farthestMap_.texture().bind(2);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, listedBlocks_.name());
     {
         const auto pass = timers_.pass("shadow-width/blocks");
         edgeBlocks_.use();
-        glUniform1i(0, hasInnerEdges_);
+        glUniform1i(0, kinds_);
         glDispatchCompute(GLuint(groupsFor(blocks, 8)), GLuint(groupsFor(blocks, 8)),
                           GLuint(depthMap_.count()));
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
@@ -200,7 +205,7 @@ void ShadowWidthMap::findNearestEdges(const AreaLight& light) {
         const auto pass = timers_.pass("shadow-width/cells");
         cellEdges_.use();
         cells_.bindImage(0, GL_WRITE_ONLY);
-        glUniform1i(0, hasInnerEdges_);
+        glUniform1i(0, kinds_);
         glUniform1i(1, cell_px());
         glUniform1i(2, depthMap_.count());
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, listedBlocks_.name());
@@ -221,7 +226,7 @@ void ShadowWidthMap::findNearestEdges(const AreaLight& light) {
         columns_.bind(1);
         nearest_.bindImage(0, GL_READ_WRITE);
         cellWidths_.bindImage(1, GL_READ_WRITE);
-        glUniform1i(0, hasInnerEdges_);
+        glUniform1i(0, kinds_);
         glUniform1i(1, cell_px());
         glUniform1i(2, depthMap_.count());
         glUniform1f(3, largestHalfExtent(light));
@@ -291,7 +296,7 @@ ShadowWidthConstants ShadowWidthMap::constants(const AreaLight& light,
     result.emission = glm::dvec4(spaceFromLight * glm::dvec3(0, 0, -1), 0);
     result.attenuation = {physical_ ? -1 : cScale_, cBias_, 1 / startDifference(startDifference_), 0};
     result.extent.x = largestHalfExtent(light);
-    result.light = {int(light.shape), depthMap_.count(), isOneSided(light), hasInnerEdges_};
+    result.light = {int(light.shape), depthMap_.count(), isOneSided(light), kinds_};
     result.firstCamera = firstCamera_;
     result.cells = {cell_px(), cellsAcross(), 0, 0};
     return result;
@@ -334,6 +339,7 @@ void ShadowWidthMap::resolveExact(const View& view, const VisibilityBuffer& out)
         const auto pass = timers_.pass("shadow-width/penumbra");
         penumbra_[variant].use();
         nearest_.bind(4);
+        if (kinds_ == 3) farthestMap_.texture().bind(5);
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, penumbraPixels_.name());
         glDispatchComputeIndirect(0);
     }
@@ -356,7 +362,7 @@ void ShadowWidthMap::inspect(InspectionVisitor& visitor) const {
     if (mode_ == exact && cellWidths_.name() != 0) {
         visitor.texture({.name = "distance to the nearest edge",
                          .texture = cellWidths_.name(),
-                         .layers = count * (hasInnerEdges_ ? 2 : 1),
+                         .layers = count * kinds_,
                          .white = 64});
     } else if (mode_ != exact && widths_.name() != 0) {
         visitor.texture({.name = "shadow-width map", .texture = widths_.name(), .layers = count});

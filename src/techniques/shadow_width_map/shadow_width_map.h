@@ -59,7 +59,7 @@ class ShadowWidthMap final : public Technique {
     int neighbours_ = 1;
     int startDifference_ = 3;
 
-    DepthMap depthMap_;
+    DepthMap depthMap_, farthestMap_;
     gl::Program edgeBlocks_, cellEdges_, edgeColumns_, edgeRows_;
     std::array<gl::Program, 2> resolve_, penumbra_;  ///< whatever there is; one map, and normals
     gl::Program composite_, published_;
@@ -71,7 +71,7 @@ class ShadowWidthMap final : public Technique {
     ViewBinding view_;
     gl::PassTimers timers_;
 
-    bool hasInnerEdges_ = false;  ///< of the maps as they are
+    int kinds_ = 1;  ///< of edges (edge_cells.glsl) in the maps as they are
     bool backFaces_ = false;
     LightCameraConstants firstCamera_{};  ///< in its own space
     glm::dmat4 faceFromLight_{1};
