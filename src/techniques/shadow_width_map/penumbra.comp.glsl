@@ -130,24 +130,24 @@ float seenFromCell(Receiving r, Footprint footprint, ivec2 cell, bool isBlocked,
         float past = seenPast(r, footprint, outline, outlineDivides, min(blocker, deepest), isBlocked);
         seen = isBlocked ? max(seen, past) : min(seen, past);
     }
-    if (constants.light.w > 2) {
-        uvec4 hidden = texelFetch(nearestEdges, ivec3(cell, r.camera + 2 * constants.light.y), 0);
-        Division divides = divide(r, hidden, false);
-        // Which side the receiver is on: that of what ends there, or of what it ends beneath; or above both.
-        ivec2 texel = ivec2(r.place_px);
-        float farthest = texelFetch(farthestMaps, ivec3(texel, r.camera), 0).r;
-        bool isBeneath = farthest < 0.5 * (storedAtEdge(hidden) + storedBehindEdge(hidden));
-        if (divides.isEdge && (!isBeneath || isAbove(r, texel, farthest))) {
-            float blocker = nearnessOf(r.depth, storedAtEdge(hidden));
-            float past = seenPast(r, footprint, hidden, divides, blocker, isBeneath);
-            // What ends there may end nearer by in an outline, too.
-            if (isBeneath && outlineDivides.isEdge)
-                past = max(past, seenPast(r, footprint, outline, outlineDivides, blocker, true));
-            float cosine = dot(normalOf(hidden), normalOf(innerDivides.isEdge ? inner : outline));
-            seen = isBeneath || cosine > 0.0 ? min(seen, past) : inCommon(seen, past, cosine);
-        }
-    }
     return seen;
+}
+
+// What the farthest blocker lets through where it ends beneath another. Nothing of it is in sight there: the outlines near by
+// are the other's. But where an outline is nearer, that is its own.
+float seenPastHidden(Receiving r, Footprint footprint, ivec2 cell) {
+    uvec4 hidden = texelFetch(nearestEdges, ivec3(cell, r.camera + 2 * constants.light.y), 0);
+    Division division = divide(r, hidden, false);
+    if (!division.isEdge) return 1.0;
+    ivec2 texel = ivec2(r.place_px);
+    float farthest = texelFetch(farthestMaps, ivec3(texel, r.camera), 0).r;
+    bool isBeneath = farthest < 0.5 * (storedAtEdge(hidden) + storedBehindEdge(hidden));
+    if (isBeneath) {
+        vec2 toOutline = nearestOnEdge(texelFetch(nearestEdges, ivec3(cell, r.camera), 0), r.place_px,
+                                       float(constants.cells.x)) - r.place_px;
+        if (length(toOutline) < division.width_px || !isAbove(r, texel, farthest)) return 1.0;
+    }
+    return seenPast(r, footprint, hidden, division, nearnessOf(r.depth, storedAtEdge(hidden)), isBeneath);
 }
 
 float seenBy(Receiver receiver) {
@@ -163,15 +163,17 @@ float seenBy(Receiver receiver) {
     vec2 place = r.place_px / float(constants.cells.x) - 0.5;
     ivec2 corner = ivec2(floor(place));
     vec2 weight = place - vec2(corner);
-    float seen = 0.0;
+    float seen = 0.0, seenAtMost = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);
         ivec2 cell = clamp(corner + offset, ivec2(0), ivec2(constants.cells.y - 1));
         vec2 share = mix(1.0 - weight, weight, vec2(offset));
+        if (constants.light.w > 2) seenAtMost += share.x * share.y * seenPastHidden(r, footprint, cell);
         seen += share.x * share.y * seenFromCell(r, footprint, cell, isBlocked, nearnessOf(r.depth, stored));
     }
     float deepest = isBlocked ? nearnessOf(r.depth, stored) : 3e38;
     seen = seenAmong(r, footprint, seen, deepest);
+    if (constants.light.w > 2) seen = min(seen, seenAtMost);
     return clamp(seen, 0.0, 1.0);
 }
 

@@ -91,8 +91,8 @@ TEST(Widths, SweepsStopAtOneWhereNothingIsLit) {
     for (const float width : sweepShadowWidths(drawing.span(), 3, 0.25f)) EXPECT_EQ(width, 1);
 }
 
-/// Lines through many sides lie truer than the texels that they are drawn with: a silhouette's place is known
-/// to a third of a texel, save where the piece is cut off by a corner or the map's border.
+/// Lines through many sides lie truer than the texels that they are drawn with: to half a texel, and as far as a
+/// straight piece of 1.5 cells leaves the disk.
 TEST(Widths, ExactWidthsAreTheDistancesToADrawnDisk) {
     constexpr int size = 128;
     for (const int cell_px : {1, 2, 4, 8}) {
@@ -106,8 +106,7 @@ TEST(Widths, ExactWidthsAreTheDistancesToADrawnDisk) {
             const double truth = std::abs(fromCenter((i % cells + 0.5) * cell_px, (i / cells + 0.5) * cell_px));
             worst = std::max(worst, std::abs(widths[std::size_t(i)] - float(truth)));
         }
-        EXPECT_LE(worst, 0.5f) << cell_px;
-        printf("DISK cell %d worst %f\n", cell_px, worst);
+        EXPECT_LE(worst, 0.5 + std::pow(0.75 * cell_px, 2) / (2 * 40)) << cell_px;
     }
 }
 
@@ -172,6 +171,7 @@ TEST_F(ShadowWidthTest, WidthsOfTheDeviceAndTheCpuAgreeToHalfATexel) {
             int bad = 0; float worst = 0;
             for (std::size_t i = 0; i < widths.size(); ++i) {
                 const float d = std::abs(widths[i] - exact[i]);
+                if (d > 0.5f && bad < 5) printf("  bad %zu %zu: %f %f\n", i % size_t(cells), i / size_t(cells), widths[i], exact[i]);
                 bad += d > 0.5f; worst = std::max(worst, d);
             }
             printf("AGREE %s %d bad %d of %zu worst %f\n", scene, map_px, bad, widths.size(), worst);

@@ -87,6 +87,11 @@ class Sides {
     std::vector<unsigned> sides_;
 };
 
+/// As a signed byte keeps a number of this range.
+double packed(double value, double range) {
+    return std::round(std::clamp(value / range, -1.0, 1.0) * 127) / 127 * range;
+}
+
 }  // namespace
 
 std::vector<float> sweepShadowWidths(std::span<const bool> blocked, int size_px, float difference) {
@@ -128,9 +133,10 @@ std::vector<SilhouettePiece> silhouettePieces(std::span<const bool> blocked, int
         line = sides.fit(x, y, std::min(cell_px + 1, 4), line, 1);
         // Along the line, the piece is where its texel is.
         const double along = (x + 0.5 - line.x) * -line.normalY + (y + 0.5 - line.y) * line.normalX;
-        const double middleX = line.x - along * line.normalY, middleY = line.y + along * line.normalX;
+        const double middleX = x + 0.5 + packed(line.x - along * line.normalY - x - 0.5, 8);
+        const double middleY = y + 0.5 + packed(line.y + along * line.normalX - y - 0.5, 8);
         const double border = 0.01 * cell_px;
-        pieces.push_back({middleX, middleY, line.normalX, line.normalY,
+        pieces.push_back({middleX, middleY, packed(line.normalX, 1), packed(line.normalY, 1),
                           std::clamp(middleX, left + border, left + cell_px - border),
                           std::clamp(middleY, top + border, top + cell_px - border)});
     }
@@ -138,20 +144,27 @@ std::vector<SilhouettePiece> silhouettePieces(std::span<const bool> blocked, int
 }
 
 std::vector<float> exactShadowWidths(std::span<const bool> blocked, int size_px, int cell_px) {
-    const std::vector<SilhouettePiece> pieces = silhouettePieces(blocked, size_px, cell_px);
     const auto cells = std::size_t((size_px + cell_px - 1) / cell_px);
+    std::vector<std::vector<SilhouettePiece>> columns(cells);
+    for (const SilhouettePiece& piece : silhouettePieces(blocked, size_px, cell_px))
+        columns[std::size_t(piece.siteX_px) / std::size_t(cell_px)].push_back(piece);
+
     std::vector<float> widths(cells * cells, std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < widths.size(); ++i) {
         const double x = (double(i % cells) + 0.5) * cell_px, y = (double(i / cells) + 0.5) * cell_px;
-        const auto squareToSite = [&](const SilhouettePiece& piece) {
-            return (piece.siteX_px - x) * (piece.siteX_px - x) + (piece.siteY_px - y) * (piece.siteY_px - y);
-        };
-        const auto nearest = std::ranges::min_element(pieces, {}, squareToSite);
-        if (nearest == pieces.end()) break;
-        const double dx = x - nearest->middleX_px, dy = y - nearest->middleY_px;
-        const double across = dx * nearest->normalX + dy * nearest->normalY;
-        const double along = std::abs(dy * nearest->normalX - dx * nearest->normalY);
-        widths[i] = float(std::hypot(across, std::max(along - 0.75 * cell_px, 0.0)));
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const std::vector<SilhouettePiece>& column : columns) {
+            if (column.empty()) continue;
+            const SilhouettePiece& piece = *std::ranges::min_element(
+                column, {}, [&](const SilhouettePiece& p) { return std::abs(p.siteY_px - y); });
+            const double toSite = std::hypot(piece.siteX_px - x, piece.siteY_px - y);
+            if (toSite >= nearest) continue;
+            nearest = toSite;
+            const double dx = x - piece.middleX_px, dy = y - piece.middleY_px;
+            const double along =
+                std::clamp(dy * piece.normalX - dx * piece.normalY, -0.75 * cell_px, 0.75 * cell_px);
+            widths[i] = float(std::hypot(dx + along * piece.normalY, dy - along * piece.normalX));
+        }
     }
     return widths;
 }

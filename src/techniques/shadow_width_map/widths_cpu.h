@@ -15,17 +15,19 @@ std::vector<float> sweepShadowWidths(std::span<const bool> blocked, int size_px,
 
 /// A silhouette as the exact mode keeps it: in each square cell of cell_px * cell_px texels one short straight
 /// piece, through the middles of the sides between blocked texels and others around the blocked one with such a
-/// side that is nearest to the cell's middle (edge_cells.glsl). Places in texels from the map's corner.
+/// side that is nearest to the cell's middle; rounded as edge_cells.glsl packs it, to which otherwise more than
+/// half a texel may be due where two pieces are equally near. Places in texels from the map's corner.
 struct SilhouettePiece {
     double middleX_px, middleY_px;
-    double normalX, normalY;  ///< towards what is not blocked
-    double siteX_px, siteY_px;  ///< the middle, kept inside the cell
+    double normalX, normalY;      ///< towards what is not blocked
+    double siteX_px, siteY_px;    ///< the middle, kept inside the cell
 };
 std::vector<SilhouettePiece> silhouettePieces(std::span<const bool> blocked, int size_px, int cell_px);
 
-/// The distance in texels from the middle of each cell to the piece whose site is nearest, by a search through
-/// all of them; infinity where there is none. Cells begin at texel 0; the last ones may reach over the map's
-/// end. What the device's separable transform finds in O(1) a cell, in doubles.
+/// The distance in texels from the middle of each cell to a piece: of the pieces whose sites are nearest along
+/// each column of cells, the one whose site is nearest. Infinity where there is none. Cells begin at texel 0; the
+/// last ones may reach over the map's end. By a search through all of them, in doubles: what the device's
+/// separable transform finds in O(1) a cell.
 std::vector<float> exactShadowWidths(std::span<const bool> blocked, int size_px, int cell_px);
 
 }  // namespace penumbra
