@@ -80,17 +80,19 @@ Line fitLine(ivec2 texel, int kind, int far_px, Line near, float fromLine_px) {
     ivec2 look = lookOf(sidesAt[texel.y * tile_px + texel.x] >> (4 * kind) & 15u);
     vec3 middles = vec3(0.0);  // their sum and number
     vec2 normal = vec2(0.0);
-    int across = 2 * far_px + 1;
-    for (int i = 0; i < across * across; ++i) {
-        ivec2 there = texel + ivec2(i % across, i / across) - far_px;
-        uint sides = sidesAt[there.y * tile_px + there.x] >> (4 * kind) & 15u;
-        for (int j = 0; j < 4; ++j) {
-            ivec2 direction = edgeDirections[j];
-            vec2 middle = vec2(there) + 0.5 + 0.5 * vec2(direction);
-            bool isAcross = look.x * direction.x + look.y * direction.y < 0;
-            if ((sides >> j & 1u) == 0u || isAcross || abs(dot(middle - near.middle, near.normal)) > fromLine_px) continue;
-            normal += vec2(direction);
-            middles += vec3(middle, 1.0);
+    ivec2 there;
+    for (there.y = texel.y - far_px; there.y <= texel.y + far_px; ++there.y) {
+        for (there.x = texel.x - far_px; there.x <= texel.x + far_px; ++there.x) {
+            uint sides = sidesAt[there.y * tile_px + there.x] >> (4 * kind) & 15u;
+            for (int j = 0; j < 4; ++j) {
+                ivec2 direction = edgeDirections[j];
+                vec2 middle = vec2(there) + 0.5 + 0.5 * vec2(direction);
+                bool isAcross = look.x * direction.x + look.y * direction.y < 0;
+                bool isOff = abs(dot(middle - near.middle, near.normal)) > fromLine_px;
+                if ((sides >> j & 1u) == 0u || isAcross || isOff) continue;
+                normal += vec2(direction);
+                middles += vec3(middle, 1.0);
+            }
         }
     }
     return middles.z == 0.0 || normal == vec2(0.0) ? near : Line(middles.xy / middles.z, normalize(normal));

@@ -27,6 +27,9 @@ uvec4 packEdge(ivec2 texel, uint direction, vec2 middle_px, vec2 normal, float s
                  floatBitsToUint(storedBehind));
 }
 
+// The cell of a place; a whole division, which cell widths (powers of two) spare, takes software rasterizers long.
+ivec2 cellAt(vec2 place_px, int cell_px) { return ivec2(place_px) >> findLSB(cell_px); }
+
 // The place on the edge's piece that is nearest to a place in the map.
 vec2 nearestOnEdge(uvec4 edge, vec2 place_px, float cell_px) {
     vec2 middle = middleOf(edge), normal = normalOf(edge);

@@ -45,7 +45,7 @@ void sweepRow(ivec3 cell, int cells) {
     for (cell.x = 0; cell.x < cells; ++cell.x) {
         float row_px = texelFetch(columns_px, cell, 0).r;
         if (row_px < 0.0) continue;
-        ivec2 home = ivec2(cell.x, int(row_px) / cell_px);
+        ivec2 home = ivec2(cell.x, cellAt(vec2(row_px), cell_px).y);
         Parabola next;
         next.edge_px = vec2(placeInCell(texelFetch(cellEdges, ivec3(home, cell.z), 0), home, cell_px).x, row_px);
         next.height = (row_px - centerOf(cell.y)) * (row_px - centerOf(cell.y));
@@ -70,7 +70,7 @@ void sweepRow(ivec3 cell, int cells) {
         uvec4 edge = uvec4(0u);
         vec2 width = vec2(2.0 * float(cells * cell_px), noPenumbra);
         if (top >= 0) {
-            edge = texelFetch(cellEdges, ivec3(ivec2(p.edge_px) / cell_px, cell.z), 0);
+            edge = texelFetch(cellEdges, ivec3(cellAt(p.edge_px, cell_px), cell.z), 0);
             vec2 center_px = (vec2(cell.xy) + 0.5) * float(cell_px);
             width.x = distance(center_px, nearestOnEdge(edge, center_px, float(cell_px)));
             width.y = penumbraBegins(map, storedAtEdge(edge), width.x - 1.5 * float(cell_px), halfExtent * steepest);

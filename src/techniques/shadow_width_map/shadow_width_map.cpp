@@ -37,10 +37,12 @@ std::vector<std::string> shader(const char* name) {
     return {std::string("src/techniques/shadow_width_map/") + name};
 }
 
-std::array<gl::Program, 2> twoVariants(Device& device, const char* name) {
+std::array<gl::Program, 4> variantsByKinds(Device& device, const char* name) {
     gl::ShaderLibrary& library = device.internals().shaders;
     return {gl::Program(library, shader(name)),
-            gl::Program(library, shader(name), {"ONE_MAP", "WITH_NORMALS"})};
+            gl::Program(library, shader(name), {"ONE_MAP", "WITH_NORMALS", "KINDS 1"}),
+            gl::Program(library, shader(name), {"ONE_MAP", "WITH_NORMALS", "KINDS 2"}),
+            gl::Program(library, shader(name), {"ONE_MAP", "WITH_NORMALS", "KINDS 3"})};
 }
 
 /// Arguments of an indirect dispatch of as many groups as have been listed, before any has.
@@ -63,8 +65,10 @@ ShadowWidthMap::ShadowWidthMap(Device& device)
       cellEdges_(device.internals().shaders, shader("cell_edges.comp.glsl")),
       edgeColumns_(device.internals().shaders, shader("edge_columns.comp.glsl")),
       edgeRows_(device.internals().shaders, shader("edge_rows.comp.glsl")),
-      resolve_(twoVariants(device, "resolve.comp.glsl")),
-      penumbra_(twoVariants(device, "penumbra.comp.glsl")),
+      resolve_(device.internals().shaders, shader("resolve.comp.glsl")),
+      resolveOneMap_(device.internals().shaders, shader("resolve.comp.glsl"), {"ONE_MAP", "WITH_NORMALS"}),
+      penumbra_(variantsByKinds(device, "penumbra.comp.glsl")),
+      crowded_(variantsByKinds(device, "crowded.comp.glsl")),
       composite_(device.internals().shaders, shader("composite.comp.glsl")),
       published_(device.internals().shaders, shader("resolve_published.comp.glsl")),
       constants_("shadow-width constants") {}
@@ -322,26 +326,39 @@ void ShadowWidthMap::resolve(const ShadowInputs& inputs, const glm::dmat4& light
 
 void ShadowWidthMap::resolveExact(const View& view, const VisibilityBuffer& out) {
     const std::size_t pixels = std::size_t(out.width_px()) * std::size_t(out.height_px());
-    if (penumbraPixels_.size_bytes() < (4 + pixels) * sizeof(GLuint)) {
-        penumbraPixels_ = gl::Buffer((4 + pixels) * sizeof(GLuint), "pixels in penumbrae");
+    for (gl::Buffer* list : {&penumbraPixels_, &crowdedPixels_}) {
+        if (list->size_bytes() < (4 + pixels) * sizeof(GLuint))
+            *list = gl::Buffer((4 + pixels) * sizeof(GLuint), "pixels in penumbrae");
+        list->write(std::as_bytes(std::span(nothingListed)));
     }
-    const std::size_t variant = depthMap_.count() == 1 && view.normalTexture != 0;
-    penumbraPixels_.write(std::as_bytes(std::span(nothingListed)));
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, penumbraPixels_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, crowdedPixels_.name());
+    const bool isOneMap = depthMap_.count() == 1 && view.normalTexture != 0;
+    const std::size_t variant = isOneMap ? std::size_t(kinds_) : 0;
     {
         const auto pass = timers_.pass("shadow-width/resolve");
-        resolve_[variant].use();
+        (isOneMap ? resolveOneMap_ : resolve_).use();
         cellWidths_.bind(4);
         gl::dispatchPixels(out.width_px(), out.height_px());
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     }
+    nearest_.bind(4);
+    if (kinds_ == 3) farthestMap_.texture().bind(5);
+    cellWidths_.bind(6);
+    const auto dispatchListed = [](const gl::Program& program, const gl::Buffer& list) {
+        program.use();
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, list.name());
+        glDispatchComputeIndirect(0);
+    };
     {
         const auto pass = timers_.pass("shadow-width/penumbra");
-        penumbra_[variant].use();
-        nearest_.bind(4);
-        if (kinds_ == 3) farthestMap_.texture().bind(5);
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, penumbraPixels_.name());
-        glDispatchComputeIndirect(0);
+        dispatchListed(penumbra_[variant], penumbraPixels_);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                        GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    }
+    {
+        const auto pass = timers_.pass("shadow-width/crowded");
+        dispatchListed(crowded_[variant], crowdedPixels_);
     }
 }
 
