@@ -43,12 +43,10 @@ void sweepRow(ivec3 cell, int cells) {
     int top = -1;
     Parabola p = Parabola(vec2(0.0), 0.0, 0);
     for (cell.x = 0; cell.x < cells; ++cell.x) {
-        float row_px = texelFetch(columns_px, cell, 0).r;
-        if (row_px < 0.0) continue;
-        ivec2 home = ivec2(cell.x, cellAt(vec2(row_px), cell_px).y);
         Parabola next;
-        next.edge_px = vec2(placeInCell(texelFetch(cellEdges, ivec3(home, cell.z), 0), home, cell_px).x, row_px);
-        next.height = (row_px - centerOf(cell.y)) * (row_px - centerOf(cell.y));
+        next.edge_px = texelFetch(columns_px, cell, 0).xy;
+        if (next.edge_px.y < 0.0) continue;
+        next.height = (next.edge_px.y - centerOf(cell.y)) * (next.edge_px.y - centerOf(cell.y));
         next.begin = 0;
         while (top >= 0 && valueAt(p, p.begin) > valueAt(next, p.begin)) {
             if (--top >= 0) p = unpack(imageLoad(nearestEdges, ivec3(top, cell.yz)));

@@ -84,6 +84,10 @@ void ShadowWidthMap::describe(ParameterVisitor& visitor) {
         {.name = "inner_edges",
          .help = "exact mode: penumbrae on casters too, from edges where casters overlap in the map"},
         innerEdges_);
+    visitor.boolean(
+        {.name = "hidden_edges",
+         .help = "with inner edges: penumbrae of what ends beneath another caster, too, from a second depth map"},
+        hiddenEdges_);
     visitor.boolean({.name = "reuse_maps", .help = "keep the maps while nothing that they show has changed"},
                     reuseMaps_);
     visitor.boolean(
@@ -118,7 +122,7 @@ void ShadowWidthMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const LightCameras cameras = fitMapCameras(inputs.light, scene, mapSize_px_);
 
     std::pmr::vector<double> key{
-        {double(mode_), double(mapSize_px_), double(innerEdges_), double(neighbours_),
+        {double(mode_), double(mapSize_px_), double(innerEdges_), double(hiddenEdges_), double(neighbours_),
          double(startDifference_), double(largestHalfExtent(inputs.light))},
         gl::LedgerScope::frameMemory()};
     appendMapKey(key, inputs, scene, cameras);
@@ -144,10 +148,14 @@ void ShadowWidthMap::makeMaps(const ShadowInputs& inputs, const LightSpaceScene&
         const auto pass = timers_.pass("shadow-width/depth map");
         depthMap_.render(inputs.casters, scene, cameras, mapSize_px_,
                          backFaces_ ? DepthMap::Surface::farthestBack : DepthMap::Surface::nearest);
-        const std::pmr::vector<Caster> hiding = castersThatHideEdges(inputs, scene, cameras);
-        kinds_ = mode_ != exact || !innerEdges_ ? 1 : !hiding.empty() ? 3 : isAnyBoth ? 2 : 1;
-        if (kinds_ == 3)
-            farthestMap_.render(hiding, scene, cameras, mapSize_px_, DepthMap::Surface::farthestFront);
+        kinds_ = mode_ == exact && innerEdges_ && isAnyBoth ? 2 : 1;
+        if (mode_ == exact && innerEdges_ && hiddenEdges_) {
+            const std::pmr::vector<Caster> hiding = castersThatHideEdges(inputs, scene, cameras);
+            if (!hiding.empty()) {
+                kinds_ = 3;
+                farthestMap_.render(hiding, scene, cameras, mapSize_px_, DepthMap::Surface::farthestFront);
+            }
+        }
     }
     if (cameras.empty()) return;
     faceFromLight_ = cameras.front().faceFromLight;
@@ -184,7 +192,7 @@ void ShadowWidthMap::allocateWidths(bool scratch) {
 void ShadowWidthMap::findNearestEdges(const AreaLight& light) {
     const int layers = depthMap_.count() * kinds_;
     allocate(cells_, cellsAcross(), layers, GL_RGBA32UI, "edges in cells");
-    allocate(columns_, cellsAcross(), layers, GL_R32F, "nearest edges in columns");
+    allocate(columns_, cellsAcross(), layers, GL_RG32F, "nearest edges in columns");
     allocate(nearest_, cellsAcross(), layers, GL_RGBA32UI, "nearest edges");
     allocate(cellWidths_, cellsAcross(), layers, GL_RG32F, "shadow widths of cells");
     const int blocks = groupsFor(mapSize_px_, 8);

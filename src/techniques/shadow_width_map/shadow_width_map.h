@@ -51,6 +51,7 @@ class ShadowWidthMap final : public Technique {
     int mode_ = exact;
     int mapSize_px_ = 1024;
     bool innerEdges_ = true;
+    bool hiddenEdges_ = true;
     bool reuseMaps_ = true;
     bool physical_ = true;
     float cScale_ = 8;
