@@ -22,42 +22,30 @@ layout(location = 2) uniform int mapCount;
 const int cellsOfKind = 64;  // at most
 const int around_px = 4;
 const int tile_px = 8 + 2 * around_px;
+const int wide_px = tile_px + 4;  // with what the sides of its texels depend on
+shared float nearest[wide_px * wide_px], farthest[wide_px * wide_px];
 shared uint sidesAt[tile_px * tile_px];
-shared uint nearest[3 * cellsOfKind];
+shared uint keys[3 * cellsOfKind];
 
-ivec3 inMap(ivec3 texel) { return ivec3(clamp(texel.xy, ivec2(0), textureSize(depthMaps, 0).xy - 1), texel.z); }
-float stored(ivec3 texel) { return texelFetch(depthMaps, inMap(texel), 0).r; }
-float storedFarthest(ivec3 texel) { return texelFetch(farthestMaps, inMap(texel), 0).r; }
-
-// A texel's sides where what is farthest ends beneath something else, in the order of the directions.
-uint hiddenSidesOf(ivec3 texel) {
-    float here = storedFarthest(texel);
+// A texel's sides that are edges: 4 bits a kind, in the order of the directions. `place` is in the wide tile.
+uint sidesOf(ivec3 texel, int place) {
+    const int steps[4] = int[](1, -1, wide_px, -wide_px);
+    bool isInMap = all(greaterThanEqual(texel.xy, ivec2(0))) && all(lessThan(texel.xy, textureSize(depthMaps, 0).xy));
+    float here = nearest[place], jump = jumpBelow(texel.z, here), far = farthest[place];
+    if (!isInMap || here == 0.0) return 0u;
     uint sides = 0u;
-    if (stored(texel) - here <= jumpBelow(texel.z, stored(texel))) return 0u;
     for (int i = 0; i < 4; ++i) {
-        ivec3 step = ivec3(edgeDirections[i], 0);
-        float before = storedFarthest(texel - step), next = storedFarthest(texel + step);
-        float bend = min(next - 2.0 * here + before, 2.0 * next - here - storedFarthest(texel + 2 * step));
-        if (next < 1.0 && min(next - here, bend) > jumpBelow(texel.z, next)) sides |= 1u << i;
+        float next = nearest[place + steps[i]];
+        float bend = min(2.0 * here - nearest[place - steps[i]] - next, here + nearest[place + 2 * steps[i]] - 2.0 * next);
+        if (next == 0.0) sides |= 1u << i;
+        else if (kinds > 1 && min(here - next, bend) > jump) sides |= 16u << i;
+        // What is farthest is hidden here, and ends beneath something else.
+        if (kinds < 3 || here - far <= jump) continue;
+        next = farthest[place + steps[i]];
+        bend = min(next - 2.0 * far + farthest[place - steps[i]], 2.0 * next - far - farthest[place + 2 * steps[i]]);
+        if (next < 1.0 && min(next - far, bend) > jumpBelow(texel.z, next)) sides |= 256u << i;
     }
     return sides;
-}
-
-// A texel's sides that are edges: 4 bits a kind.
-uint sidesOf(ivec3 texel) {
-    float here = stored(texel), jump = jumpBelow(texel.z, here);
-    bool isInMap = all(greaterThanEqual(texel.xy, ivec2(0))) && all(lessThan(texel.xy, textureSize(depthMaps, 0).xy));
-    if (!isInMap || here == 0.0) return 0u;
-    float around[4];
-    for (int i = 0; i < 4; ++i) around[i] = stored(texel + ivec3(edgeDirections[i], 0));
-    uint sides = 0u;
-    for (int i = 0; i < 4; ++i) {
-        float beyond = stored(texel + ivec3(2 * edgeDirections[i], 0));
-        float bend = min(2.0 * here - around[i ^ 1] - around[i], here + beyond - 2.0 * around[i]);
-        if (around[i] == 0.0) sides |= 1u << i;
-        else if (kinds > 1 && here - around[i] > jump && bend > jump) sides |= 16u << i;
-    }
-    return kinds > 2 ? sides | hiddenSidesOf(texel) << 8 : sides;
 }
 
 // The direction that a texel's sides (4 bits) look to; where they cancel, that of the first.
@@ -115,11 +103,11 @@ void keepEdge(ivec3 corner, int cell, int kind, int place) {
     // Along the line, the edge is where its texel is.
     vec2 along = vec2(-normal.y, normal.x);
     middle += along * dot(vec2(texel) + 0.5 - middle, along);
+    int here = (texel.y + 2) * wide_px + texel.x + 2;
+    int behind = here + edgeDirections[direction].y * wide_px + edgeDirections[direction].x;
     texel += corner.xy;
-    ivec3 here = ivec3(texel, corner.z), behind = here + ivec3(edgeDirections[direction], 0);
     uvec4 edge = packEdge(texel, direction, middle + vec2(corner.xy), normal,
-                          kind == 2 ? storedFarthest(here) : stored(here),
-                          kind == 2 ? storedFarthest(behind) : stored(behind));
+                          kind == 2 ? farthest[here] : nearest[here], kind == 2 ? farthest[behind] : nearest[behind]);
     int across = 8 / cell_px;
     ivec2 place_cells = (corner.xy + around_px) / cell_px + ivec2(cell % across, cell / across);
     imageStore(cellEdges, ivec3(place_cells, corner.z + kind * mapCount), edge);
@@ -131,9 +119,18 @@ void main() {
     ivec2 within = ivec2(gl_LocalInvocationID.xy);
     int lane = int(gl_LocalInvocationIndex), across = 8 / cell_px;
 
-    for (int i = lane; i < tile_px * tile_px; i += 64)
-        sidesAt[i] = sidesOf(corner + ivec3(i % tile_px, i / tile_px, 0));
-    for (int kind = 0; kind < 3; ++kind) nearest[cellsOfKind * kind + lane] = 0xffffffffu;
+    ivec2 last = textureSize(depthMaps, 0).xy - 1;
+    for (int i = lane; i < wide_px * wide_px; i += 64) {
+        ivec3 texel = ivec3(clamp(corner.xy - 2 + ivec2(i % wide_px, i / wide_px), ivec2(0), last), corner.z);
+        nearest[i] = texelFetch(depthMaps, texel, 0).r;
+        farthest[i] = kinds > 2 ? texelFetch(farthestMaps, texel, 0).r : 1.0;
+    }
+    for (int kind = 0; kind < 3; ++kind) keys[cellsOfKind * kind + lane] = 0xffffffffu;
+    barrier();
+    for (int i = lane; i < tile_px * tile_px; i += 64) {
+        ivec2 inTile = ivec2(i % tile_px, i / tile_px);
+        sidesAt[i] = sidesOf(corner + ivec3(inTile, 0), (inTile.y + 2) * wide_px + inTile.x + 2);
+    }
     barrier();
 
     int own = (within.y + around_px) * tile_px + within.x + around_px;
@@ -141,12 +138,13 @@ void main() {
     ivec2 fromMiddle = 2 * (within % cell_px) + 1 - cell_px;
     uint key = uint(fromMiddle.x * fromMiddle.x + fromMiddle.y * fromMiddle.y) << 16 | uint(own);
     for (int kind = 0; kind < kinds; ++kind) {
-        if ((sidesAt[own] >> (4 * kind) & 15u) != 0u) atomicMin(nearest[cellsOfKind * kind + cell], key);
+        if ((sidesAt[own] >> (4 * kind) & 15u) != 0u) atomicMin(keys[cellsOfKind * kind + cell], key);
     }
     barrier();
 
-    for (int kind = 0; kind < kinds; ++kind) {
-        uint key = nearest[cellsOfKind * kind + lane];
-        if (key != 0xffffffffu) keepEdge(corner, lane, kind, int(key & 0xffffu));
+    int cells = across * across;
+    for (int i = lane; i < kinds * cells; i += 64) {
+        uint key = keys[cellsOfKind * (i / cells) + i % cells];
+        if (key != 0xffffffffu) keepEdge(corner, i % cells, i / cells, int(key & 0xffffu));
     }
 }
