@@ -36,11 +36,12 @@ double penumbraReach(const AreaLight& light, const LightSpaceScene& scene, const
 }
 
 /// The camera with a window of a grid of sizes and places and near and far planes of a grid of depths, around
-/// the window that is wanted: views that differ little get the same bits. At most 8 % wider than that, which is
-/// the resolution lost.
+/// the window that is wanted: views that differ little get the same bits. At most 8 % wider than that, which
+/// is the resolution lost.
 LightCamera steadied(LightCamera camera, const glm::dvec2& center, double half) {
     constexpr double sizesAnOctave = 16, placesAWindow = 32;
-    const double least = 2 * half / (1 - 1 / placesAWindow);  // that of which half a place to each side is spare
+    const double least =
+        2 * half / (1 - 1 / placesAWindow);  // that of which half a place to each side is spare
     const double size = std::exp2(std::ceil(sizesAnOctave * std::log2(least)) / sizesAnOctave);
     const double place = size / placesAWindow;
     const glm::dvec2 middle = place * glm::round(center / place);
@@ -75,7 +76,8 @@ Seen seenBy(const LightCamera& camera, const BoxCorners& box) {
         // What reaches behind the camera may be anywhere before it.
         const bool isBefore = camera.orthographic || p.z > 0;
         const glm::dvec2 place = camera.orthographic ? glm::dvec2(p) : glm::dvec2(p) / p.z;
-        seen.min = isBefore ? glm::min(seen.min, place) : glm::dvec2(-std::numeric_limits<double>::infinity());
+        seen.min =
+            isBefore ? glm::min(seen.min, place) : glm::dvec2(-std::numeric_limits<double>::infinity());
         seen.max = isBefore ? glm::max(seen.max, place) : glm::dvec2(std::numeric_limits<double>::infinity());
         seen.farthest_m = std::max(seen.farthest_m, p.z);
     }
@@ -109,7 +111,8 @@ std::pmr::vector<Caster> castersThatHideEdges(const ShadowInputs& inputs, const 
         std::pmr::vector<Seen> before(memory);
         for (std::size_t i = 0; i < casters.size(); ++i) {
             const Seen seen = seenBy(camera, scene.boxes[i]);
-            if (!casters[i].casts || !camera.mightSee(scene.boxes[i]) || seen.farthest_m >= deepest_m) continue;
+            if (!casters[i].casts || !camera.mightSee(scene.boxes[i]) || seen.farthest_m >= deepest_m)
+                continue;
             isBefore[i] = true;
             before.push_back(seen);
         }

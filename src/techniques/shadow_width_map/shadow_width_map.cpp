@@ -86,7 +86,8 @@ void ShadowWidthMap::describe(ParameterVisitor& visitor) {
         innerEdges_);
     visitor.boolean(
         {.name = "hidden_edges",
-         .help = "with inner edges: penumbrae of what ends beneath another caster, too, from a second depth map"},
+         .help =
+             "with inner edges: penumbrae of what ends beneath another caster, too, from a second depth map"},
         hiddenEdges_);
     visitor.boolean({.name = "reuse_maps", .help = "keep the maps while nothing that they show has changed"},
                     reuseMaps_);

@@ -62,8 +62,9 @@ class ShadowWidthMap final : public Technique {
 
     DepthMap depthMap_, farthestMap_;
     gl::Program edgeBlocks_, cellEdges_, edgeColumns_, edgeRows_;
-    gl::Program resolve_, resolveOneMap_;             ///< whatever there is; one map, and normals
-    std::array<gl::Program, 4> penumbra_, crowded_;  ///< whatever there is; one map, normals and so many kinds
+    gl::Program resolve_, resolveOneMap_;  ///< whatever there is; one map, and normals
+    std::array<gl::Program, 4> penumbra_,
+        crowded_;  ///< whatever there is; one map, normals and so many kinds
     gl::Program composite_, published_;
     gl::Texture cells_, columns_, nearest_, cellWidths_;  ///< exact mode
     gl::Texture widths_, scratch_, curveTable_;           ///< published modes

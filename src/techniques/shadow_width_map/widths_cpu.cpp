@@ -38,8 +38,8 @@ class Sides {
         return std::min(x, y) < 0 || std::max(x, y) >= size_px_ ? 0 : sides_[index(x, y)];
     }
 
-    /// Through the middles of all sides at most far_px texels away and fromLine_px from `near` that do not look
-    /// the other way; `near` where they cancel.
+    /// Through the middles of all sides at most far_px texels away and fromLine_px from `near` that do not
+    /// look the other way; `near` where they cancel.
     Line fit(int x, int y, int far_px, const Line& near, double fromLine_px) const {
         const Offset look = lookOf(of(x, y));
         Line sum;
@@ -50,8 +50,7 @@ class Sides {
                     const Offset& direction = directions[i];
                     const double middleX = x2 + 0.5 + 0.5 * direction.x;
                     const double middleY = y2 + 0.5 + 0.5 * direction.y;
-                    const double off =
-                        (middleX - near.x) * near.normalX + (middleY - near.y) * near.normalY;
+                    const double off = (middleX - near.x) * near.normalX + (middleY - near.y) * near.normalY;
                     if ((of(x2, y2) >> i & 1) == 0 || look.x * direction.x + look.y * direction.y < 0 ||
                         std::abs(off) > fromLine_px) {
                         continue;
