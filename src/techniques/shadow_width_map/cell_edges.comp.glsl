@@ -89,9 +89,10 @@ Line fitLine(ivec2 texel, int kind, int far_px, Line near, float fromLine_px) {
 // Of a cell, from the place of its edge texel in the tile.
 void keepEdge(ivec3 corner, int cell, int kind, int place) {
     ivec2 texel = ivec2(place % tile_px, place / tile_px);
+    // Cells of one texel are those of small maps, in which a blocker may be a few texels large: lines no longer than that.
     // First what is close, so that beside a corner the silhouette's other leg stays out.
     Line line = fitLine(texel, kind, 1, Line(vec2(0.0), vec2(0.0)), 0.0);
-    line = fitLine(texel, kind, min(cell_px + 1, around_px), line, 1.0);
+    line = fitLine(texel, kind, cell_px == 1 ? 1 : min(cell_px + 1, around_px), line, 1.0);
     vec2 middle = line.middle, normal = line.normal;
     uint direction = 0u;
     float most = -2.0;

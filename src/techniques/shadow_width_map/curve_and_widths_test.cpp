@@ -89,8 +89,8 @@ TEST(Widths, SweepsStopAtOneWhereNothingIsLit) {
     for (const float width : sweepShadowWidths(drawing.span(), 3, 0.25f)) EXPECT_EQ(width, 1);
 }
 
-/// Lines through many sides lie truer than the texels that they are drawn with: to half a texel, and as far
-/// as a straight piece of 1.5 cells leaves the disk.
+/// Texels are drawn or not by their middles, which tells a silhouette's place to half a texel; packing may
+/// add 0.05 (edge_cells.glsl), and a straight piece of 1.5 cells what it leaves the disk by.
 TEST(Widths, ExactWidthsAreTheDistancesToADrawnDisk) {
     constexpr int size = 128;
     for (const int cell_px : {1, 2, 4, 8}) {
@@ -106,7 +106,7 @@ TEST(Widths, ExactWidthsAreTheDistancesToADrawnDisk) {
                 std::abs(fromCenter((i % cells + 0.5) * cell_px, (i / cells + 0.5) * cell_px));
             worst = std::max(worst, std::abs(widths[std::size_t(i)] - float(truth)));
         }
-        EXPECT_LE(worst, 0.5 + std::pow(0.75 * cell_px, 2) / (2 * 40)) << cell_px;
+        EXPECT_LE(worst, 0.55 + std::pow(0.75 * cell_px, 2) / (2 * 40)) << cell_px;
     }
 }
 

@@ -131,7 +131,7 @@ TEST_F(ShadowWidthTest, SmallMapsStayNearTheTruth) {
     const Scene scene = makeBuiltin("disk-and-sphere");
     const LightResult exact = truth(scene, size, rays);
     const double ours = penumbraRmse(exact, render("shadow-width", scene, size, {{"map_size", "64"}}));
-    EXPECT_LE(ours, 0.15);
+    EXPECT_LE(ours, 0.14);
     EXPECT_LT(ours, penumbraRmse(exact, render("hard", scene, size, {{"map_size", "64"}})));
     EXPECT_LT(ours, penumbraRmse(exact,
                                  render("shadow-width", scene, size,

@@ -129,7 +129,7 @@ std::vector<SilhouettePiece> silhouettePieces(std::span<const bool> blocked, int
         }
         if (nearest == std::numeric_limits<int>::max()) continue;
         Line line = sides.fit(x, y, 1, {}, 0);
-        line = sides.fit(x, y, std::min(cell_px + 1, 4), line, 1);
+        line = sides.fit(x, y, cell_px == 1 ? 1 : std::min(cell_px + 1, 4), line, 1);
         // Along the line, the piece is where its texel is.
         const double along = (x + 0.5 - line.x) * -line.normalY + (y + 0.5 - line.y) * line.normalX;
         const double middleX = x + 0.5 + packed(line.x - along * line.normalY - x - 0.5, 8);
