@@ -92,21 +92,26 @@ TEST(Widths, SweepsStopAtOneWhereNothingIsLit) {
 /// Texels are drawn or not by their middles, which tells a silhouette's place to half a texel; packing may
 /// add 0.05 (edge_cells.glsl), and a straight piece of 1.5 cells what it leaves the disk by.
 TEST(Widths, ExactWidthsAreTheDistancesToADrawnDisk) {
-    constexpr int size = 128;
+    constexpr std::size_t size = 128;
+    constexpr double radius_px = 40;
+    const auto fromBorder = [](std::size_t x, std::size_t y, int cell_px) {
+        return std::hypot((double(x) + 0.5) * cell_px - 61.3, (double(y) + 0.5) * cell_px - 66.8) - radius_px;
+    };
+    const auto blocked = std::make_unique<bool[]>(size * size);
+    for (std::size_t y = 0; y < size; ++y) {
+        for (std::size_t x = 0; x < size; ++x) blocked[y * size + x] = fromBorder(x, y, 1) < 0;
+    }
     for (const int cell_px : {1, 2, 4, 8}) {
-        const auto blocked = std::make_unique<bool[]>(size * size);
-        const auto fromCenter = [](double x, double y) { return std::hypot(x - 61.3, y - 66.8) - 40; };
-        for (int i = 0; i < size * size; ++i)
-            blocked[std::size_t(i)] = fromCenter(i % size + 0.5, i / size + 0.5) < 0;
         const std::vector<float> widths = exactShadowWidths({blocked.get(), size * size}, size, cell_px);
-        const int cells = size / cell_px;
-        float worst = 0;
-        for (int i = 0; i < cells * cells; ++i) {
-            const double truth =
-                std::abs(fromCenter((i % cells + 0.5) * cell_px, (i / cells + 0.5) * cell_px));
-            worst = std::max(worst, std::abs(widths[std::size_t(i)] - float(truth)));
+        const std::size_t cells = size / std::size_t(cell_px);
+        double worst = 0;
+        for (std::size_t y = 0; y < cells; ++y) {
+            for (std::size_t x = 0; x < cells; ++x) {
+                const double truth = std::abs(fromBorder(x, y, cell_px));
+                worst = std::max(worst, std::abs(double(widths[y * cells + x]) - truth));
+            }
         }
-        EXPECT_LE(worst, 0.55 + std::pow(0.75 * cell_px, 2) / (2 * 40)) << cell_px;
+        EXPECT_LE(worst, 0.55 + std::pow(0.75 * cell_px, 2) / (2 * radius_px)) << cell_px;
     }
 }
 

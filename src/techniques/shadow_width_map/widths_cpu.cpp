@@ -150,7 +150,8 @@ std::vector<float> exactShadowWidths(std::span<const bool> blocked, int size_px,
 
     std::vector<float> widths(cells * cells, std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < widths.size(); ++i) {
-        const double x = (double(i % cells) + 0.5) * cell_px, y = (double(i / cells) + 0.5) * cell_px;
+        const std::size_t row = i / cells;
+        const double x = (double(i - row * cells) + 0.5) * cell_px, y = (double(row) + 0.5) * cell_px;
         double nearest = std::numeric_limits<double>::infinity();
         for (const std::vector<SilhouettePiece>& column : columns) {
             if (column.empty()) continue;

@@ -15,9 +15,8 @@ std::vector<float> sweepShadowWidths(std::span<const bool> blocked, int size_px,
 
 /// A silhouette as the exact mode keeps it: in each square cell of cell_px * cell_px texels one short
 /// straight piece, through the middles of the sides between blocked texels and others around the blocked one
-/// with such a side that is nearest to the cell's middle; rounded as edge_cells.glsl packs it, to which
-/// otherwise more than half a texel may be due where two pieces are equally near. Places in texels from the
-/// map's corner.
+/// with such a side that is nearest to the cell's middle; rounded as edge_cells.glsl packs it. Places in
+/// texels from the map's corner.
 struct SilhouettePiece {
     double middleX_px, middleY_px;
     double normalX, normalY;    ///< towards what is not blocked
