@@ -66,7 +66,8 @@ struct Drawing {
         : size(int(rows.size())), blocked(new bool[rows.size() * rows.size()]) {
         for (int y = 0; y < size; ++y) {
             for (int x = 0; x < size; ++x)
-                blocked[std::size_t(y * size + x)] = rows[std::size_t(y)][std::size_t(x)] == '#';
+                blocked[std::size_t(y) * rows.size() + std::size_t(x)] =
+                    rows[std::size_t(y)][std::size_t(x)] == '#';
         }
     }
     std::span<const bool> span() const { return {blocked.get(), std::size_t(size * size)}; }
