@@ -75,11 +75,12 @@ void DepthMap::render(std::span<const Caster> casters, const LightSpaceScene& sc
     layerLists_.write(layers);
 
     const bool isNearest = surface == Surface::nearest;
+    const GLenum culled = surface == Surface::farthestBack ? GL_FRONT : GL_BACK;
     gl::beginPass(framebuffer_.name(), {.width_px = mapSize_px,
                                         .height_px = mapSize_px,
                                         .depthTest = GLenum(isNearest ? GL_GREATER : GL_LESS),
                                         .depthWrite = true,
-                                        .cull = GLenum(isNearest ? GL_NONE : GL_FRONT),
+                                        .cull = isNearest ? GLenum(GL_NONE) : culled,
                                         .colorWrite = false});
     glBindVertexArray(vertices_.name());
     cameras_.bind(0);
@@ -94,7 +95,8 @@ void DepthMap::render(std::span<const Caster> casters, const LightSpaceScene& sc
             const gl::Program& program = casters[i].alphaMask.texture != 0 ? masked_ : opaque_;
             program.use();
             // Mirrored, a mesh shows its back as its front.
-            if (!isNearest) glCullFace(glm::determinant(scene.lightFromMesh[i]) < 0 ? GL_BACK : GL_FRONT);
+            const bool isMirrored = glm::determinant(scene.lightFromMesh[i]) < 0;
+            if (!isNearest) glCullFace(isMirrored ? GL_FRONT + GL_BACK - culled : culled);
             glUniform1i(0, int(i));
             glUniform1i(1, int(it - layers.begin()));
             draw(casters[i], onlyLayer < 0 ? int(end - begin) : 1);

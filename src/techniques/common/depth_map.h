@@ -20,8 +20,9 @@ class DepthMap {
   public:
     /// Which surface a texel sees.
     enum class Surface {
-        nearest,       ///< no caster: depth 0
-        farthestBack,  ///< the farthest among those that face away from the camera; no caster: depth 1
+        nearest,        ///< no caster: depth 0
+        farthestFront,  ///< the farthest among those that face the camera; no caster: depth 1
+        farthestBack,   ///< the farthest among those that face away from it; no caster: depth 1
     };
 
     explicit DepthMap(Device& device);

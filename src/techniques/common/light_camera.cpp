@@ -192,6 +192,13 @@ LightCamera distantCamera(const LightSpaceScene& scene, const LightCameraOptions
     return camera;
 }
 
+/// Within five degrees of a direction, one of a few hundred.
+glm::dvec3 onGrid(const glm::dvec3& direction) {
+    constexpr double steps = 8;  // from the middle of a cube's face to its side
+    const glm::dvec3 size = glm::abs(direction);
+    return glm::normalize(glm::round(steps / std::max({size.x, size.y, size.z}) * direction));
+}
+
 }  // namespace
 
 // M. Badoiu and K. Clarkson, Smaller core-sets for balls, 2003: step towards the farthest.
@@ -308,8 +315,9 @@ LightCameras fitLightCameras(const AreaLight& light, const LightSpaceScene& scen
     constexpr double cosineOfHalfField = 0.5;
     if (std::ranges::all_of(directions,
                             [&](const auto& d) { return glm::dot(d, axis) > cosineOfHalfField; })) {
-        const glm::dvec3 up = std::abs(axis.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
-        LightCamera camera{.faceFromLight = lookAlong(axis, up, options.originLight)};
+        const glm::dvec3 lookAxis = options.steadyAxis ? onGrid(axis) : axis;
+        const glm::dvec3 up = std::abs(lookAxis.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+        LightCamera camera{.faceFromLight = lookAlong(lookAxis, up, options.originLight)};
         if (auto fitted = fitWindow(camera, receivers, options)) cameras.push_back(*fitted);
         return cameras;
     }

@@ -62,6 +62,7 @@ struct LightCameraOptions {
     glm::dvec3 originLight{0};  ///< the point of the light to look from
     int mapSize_px = 1024;      ///< windows get a border of two texels
     double margin = 0;          ///< added around each window, in tangents or metres
+    bool steadyAxis = false;    ///< from a grid of directions, so that small moves of the view keep the axis
 };
 
 /// One, or a cube's faces.

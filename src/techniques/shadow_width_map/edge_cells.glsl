@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Silhouettes as the exact mode keeps them. The map is divided into square cells of a few texels; each keeps, of either
-// kind, one edge: a short straight piece of a silhouette. An edge texel sees the near surface of a discontinuity; its
-// sides towards the far one are the silhouette.
+// Silhouettes as the exact mode keeps them. The map is divided into square cells of a few texels; each keeps, of every
+// kind, one edge: a short straight piece of a silhouette. An edge texel sees the surface that ends there; its sides towards
+// what is beyond are the silhouette. In layers, all maps of a kind, then those of the next:
+//   0  outlines of the casters' union, before nothing
+//   1  inner edges, where a caster stands out against another
+//   2  hidden edges, where what is farthest ends beneath another caster
 //
 // Packed in four words; the first is 0 where there is no edge:
-//   texel of the near surface (12 bits each way), direction of the far one beside it (2 bits), 1 << 31
-//   middle of the piece from the texel's centre, in eighths; unit normal towards the far surface (8 bits each)
+//   texel (12 bits each way), direction of the one beyond (2 bits), 1 << 31
+//   middle of the piece from the texel's centre, in eighths; unit normal towards what is beyond (8 bits each)
 //   stored depths of the two texels
 
 const ivec2 edgeDirections[4] = ivec2[](ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
@@ -23,6 +26,9 @@ uvec4 packEdge(ivec2 texel, uint direction, vec2 middle_px, vec2 normal, float s
                  packSnorm4x8(vec4((middle_px - vec2(texel) - 0.5) / 8.0, normal)), floatBitsToUint(stored),
                  floatBitsToUint(storedBehind));
 }
+
+// The cell of a place; a whole division, which cell widths (powers of two) spare, takes software rasterizers long.
+ivec2 cellAt(vec2 place_px, int cell_px) { return ivec2(place_px) >> findLSB(cell_px); }
 
 // The place on the edge's piece that is nearest to a place in the map.
 vec2 nearestOnEdge(uvec4 edge, vec2 place_px, float cell_px) {

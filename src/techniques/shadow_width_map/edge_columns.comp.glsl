@@ -7,24 +7,25 @@ layout(local_size_x = 16) in;
 #include "src/techniques/shadow_width_map/edge_cells.glsl"
 
 layout(binding = 0) uniform usampler2DArray cellEdges;
-layout(binding = 0, r32f) uniform image2DArray columns_px;
+layout(binding = 0, rg32f) uniform image2DArray columns_px;  // places in the map
 layout(location = 1) uniform int cell_px;
 
 void main() {
     int cells = textureSize(cellEdges, 0).x;
     ivec3 cell = ivec3(gl_GlobalInvocationID.x, 0, gl_GlobalInvocationID.y);
     if (cell.x >= cells) return;
-    float nearest_px = -1.0;
+    vec2 nearest_px = vec2(-1.0);
     for (cell.y = 0; cell.y < cells; ++cell.y) {
         uvec4 edge = texelFetch(cellEdges, cell, 0);
-        if (isEdge(edge)) nearest_px = placeInCell(edge, cell.xy, cell_px).y;
-        imageStore(columns_px, cell, vec4(nearest_px));
+        if (isEdge(edge)) nearest_px = placeInCell(edge, cell.xy, cell_px);
+        imageStore(columns_px, cell, nearest_px.xyxy);
     }
     for (cell.y = cells - 2; cell.y >= 0; --cell.y) {
         float center_px = (float(cell.y) + 0.5) * float(cell_px);
-        float own_px = imageLoad(columns_px, cell).r;
-        bool isNearer = own_px >= 0.0 && (nearest_px < 0.0 || abs(own_px - center_px) <= abs(nearest_px - center_px));
+        vec2 own_px = imageLoad(columns_px, cell).xy;
+        bool isNearer =
+            own_px.y >= 0.0 && (nearest_px.y < 0.0 || abs(own_px.y - center_px) <= abs(nearest_px.y - center_px));
         if (isNearer) nearest_px = own_px;
-        imageStore(columns_px, cell, vec4(nearest_px));
+        imageStore(columns_px, cell, nearest_px.xyxy);
     }
 }

@@ -15,7 +15,7 @@ layout(binding = 0) uniform usampler2DArray cellEdges;
 layout(binding = 1) uniform sampler2DArray columns_px;
 layout(binding = 0, rgba32ui) uniform uimage2DArray nearestEdges;
 layout(binding = 1, rg32f) uniform image2DArray widths;
-layout(location = 0) uniform bool withInnerEdges;
+layout(location = 0) uniform int kinds;
 layout(location = 1) uniform int cell_px;
 layout(location = 2) uniform int mapCount;
 layout(location = 3) uniform float halfExtent;  // the light's largest
@@ -43,12 +43,10 @@ void sweepRow(ivec3 cell, int cells) {
     int top = -1;
     Parabola p = Parabola(vec2(0.0), 0.0, 0);
     for (cell.x = 0; cell.x < cells; ++cell.x) {
-        float row_px = texelFetch(columns_px, cell, 0).r;
-        if (row_px < 0.0) continue;
-        ivec2 home = ivec2(cell.x, int(row_px) / cell_px);
         Parabola next;
-        next.edge_px = vec2(placeInCell(texelFetch(cellEdges, ivec3(home, cell.z), 0), home, cell_px).x, row_px);
-        next.height = (row_px - centerOf(cell.y)) * (row_px - centerOf(cell.y));
+        next.edge_px = texelFetch(columns_px, cell, 0).xy;
+        if (next.edge_px.y < 0.0) continue;
+        next.height = (next.edge_px.y - centerOf(cell.y)) * (next.edge_px.y - centerOf(cell.y));
         next.begin = 0;
         while (top >= 0 && valueAt(p, p.begin) > valueAt(next, p.begin)) {
             if (--top >= 0) p = unpack(imageLoad(nearestEdges, ivec3(top, cell.yz)));
@@ -70,15 +68,15 @@ void sweepRow(ivec3 cell, int cells) {
         uvec4 edge = uvec4(0u);
         vec2 width = vec2(2.0 * float(cells * cell_px), noPenumbra);
         if (top >= 0) {
-            edge = texelFetch(cellEdges, ivec3(ivec2(p.edge_px) / cell_px, cell.z), 0);
+            edge = texelFetch(cellEdges, ivec3(cellAt(p.edge_px, cell_px), cell.z), 0);
             vec2 center_px = (vec2(cell.xy) + 0.5) * float(cell_px);
             width.x = distance(center_px, nearestOnEdge(edge, center_px, float(cell_px)));
             width.y = penumbraBegins(map, storedAtEdge(edge), width.x - 1.5 * float(cell_px), halfExtent * steepest);
             if (cell.x == p.begin && --top >= 0) p = unpack(imageLoad(nearestEdges, ivec3(top, cell.yz)));
         }
         imageStore(nearestEdges, cell, edge);
-        // In the outlines' layer for both kinds.
-        if (cell.z < mapCount && withInnerEdges) width.y = max(width.y, imageLoad(widths, cell + ivec3(0, 0, mapCount)).y);
+        // In the outlines' layer for all kinds.
+        if (cell.z + mapCount < kinds * mapCount) width.y = max(width.y, imageLoad(widths, cell + ivec3(0, 0, mapCount)).y);
         imageStore(widths, cell, width.xyxy);
     }
 }
@@ -87,6 +85,5 @@ void main() {
     int cells = imageSize(nearestEdges).x;
     ivec3 cell = ivec3(0, gl_GlobalInvocationID.xy);
     if (cell.y >= cells) return;
-    if (withInnerEdges) sweepRow(cell + ivec3(0, 0, mapCount), cells);
-    sweepRow(cell, cells);
+    for (int kind = kinds - 1; kind >= 0; --kind) sweepRow(cell + ivec3(0, 0, kind * mapCount), cells);
 }

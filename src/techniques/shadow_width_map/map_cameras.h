@@ -10,11 +10,18 @@ namespace penumbra {
 
 /// The cameras of fitLightCameras with square windows, so that a distance in the map is the same in all
 /// directions, and wide enough that blockers whose penumbra may reach a receiver are in the map (as far as a
-/// sixth of the window).
+/// sixth of the window). Axes, windows and planes are of coarse grids, so that small moves of the view keep
+/// the cameras, bit for bit.
 LightCameras fitMapCameras(const AreaLight& light, const LightSpaceScene& scene, int mapSize_px);
 
 /// Appends everything that the maps depend on but their parameters: equal numbers, equal maps.
 void appendMapKey(std::pmr::vector<double>& key, const ShadowInputs& inputs, const LightSpaceScene& scene,
                   std::span<const LightCamera> cameras);
+
+/// The casters, without those that nothing receives behind, if any two of the rest overlap as a camera sees
+/// them, so that edges of one may be hidden by the other; else none. By their bounding boxes; as many as the
+/// input's, those left out do not cast.
+std::pmr::vector<Caster> castersThatHideEdges(const ShadowInputs& inputs, const LightSpaceScene& scene,
+                                              std::span<const LightCamera> cameras);
 
 }  // namespace penumbra

@@ -26,8 +26,14 @@ bool isFacing(Receiver receiver, bool anyOfLight) {
     return height_m > least_m && (constants.light.z == 0 || dot(receiver.posLight, constants.emission.xyz) > 0.0);
 }
 
-// Software rasterizers read a storage block anew for every pixel and use; most lights have one map, and the constants of
-// that lie in the uniform block too.
+// Software rasterizers run both sides of every branch, and read a storage block anew for every pixel and use; most lights
+// have one map, and the constants of that lie in the uniform block too.
+#ifdef KINDS
+const int kinds = KINDS;
+#else
+int kinds = constants.light.w;
+#endif
+
 #ifdef ONE_MAP
 const int mapCount = 1;
 LightCameraConstants cameraOf(int map) { return constants.firstCamera; }

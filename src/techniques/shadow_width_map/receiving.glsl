@@ -50,6 +50,8 @@ bool isAbove(Receiving r, ivec2 texel, float stored) {
     return stored > 0.0 && r.above.weight * nearnessOf(r.depth, stored) + plane > r.above.tolerance;
 }
 
+float storedHere(Receiving r) { return texelFetch(depthMaps, ivec3(r.place_px, r.camera), 0).r; }
+
 // False where no light camera sees the receiver: nothing can shadow it.
 bool startReceiving(Receiver receiver, out Receiving r) {
     MapPoint point;

@@ -19,7 +19,8 @@ struct ShadowWidthConstants {
     vec4 attenuation;  // x: c_scale, or -1: physical; y: c_bias; z: texels to a unit of width
     vec4 emission;     // where the light's -Z points
     vec4 extent;       // x: the light's largest half extent
-    ivec4 light;       // x: LightShape; y: number of maps; z: 1 if one-sided; w: 1 if inner edges have maps
+    ivec4 light;       // x: LightShape; y: number of maps; z: 1 if one-sided; w: how many kinds of edges
+                       // (edge_cells.glsl)
     ivec4 cells;       // x: a cell's width in texels; y: cells across a map
     LightCameraConstants firstCamera;  // of the depth maps; with one map, in that map's space
 };

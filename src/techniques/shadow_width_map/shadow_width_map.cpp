@@ -37,10 +37,12 @@ std::vector<std::string> shader(const char* name) {
     return {std::string("src/techniques/shadow_width_map/") + name};
 }
 
-std::array<gl::Program, 2> twoVariants(Device& device, const char* name) {
+std::array<gl::Program, 4> variantsByKinds(Device& device, const char* name) {
     gl::ShaderLibrary& library = device.internals().shaders;
     return {gl::Program(library, shader(name)),
-            gl::Program(library, shader(name), {"ONE_MAP", "WITH_NORMALS"})};
+            gl::Program(library, shader(name), {"ONE_MAP", "WITH_NORMALS", "KINDS 1"}),
+            gl::Program(library, shader(name), {"ONE_MAP", "WITH_NORMALS", "KINDS 2"}),
+            gl::Program(library, shader(name), {"ONE_MAP", "WITH_NORMALS", "KINDS 3"})};
 }
 
 /// Arguments of an indirect dispatch of as many groups as have been listed, before any has.
@@ -58,12 +60,15 @@ float largestHalfExtent(const AreaLight& light) {
 
 ShadowWidthMap::ShadowWidthMap(Device& device)
     : depthMap_(device),
+      farthestMap_(device),
       edgeBlocks_(device.internals().shaders, shader("edge_blocks.comp.glsl")),
       cellEdges_(device.internals().shaders, shader("cell_edges.comp.glsl")),
       edgeColumns_(device.internals().shaders, shader("edge_columns.comp.glsl")),
       edgeRows_(device.internals().shaders, shader("edge_rows.comp.glsl")),
-      resolve_(twoVariants(device, "resolve.comp.glsl")),
-      penumbra_(twoVariants(device, "penumbra.comp.glsl")),
+      resolve_(device.internals().shaders, shader("resolve.comp.glsl")),
+      resolveOneMap_(device.internals().shaders, shader("resolve.comp.glsl"), {"ONE_MAP", "WITH_NORMALS"}),
+      penumbra_(variantsByKinds(device, "penumbra.comp.glsl")),
+      crowded_(variantsByKinds(device, "crowded.comp.glsl")),
       composite_(device.internals().shaders, shader("composite.comp.glsl")),
       published_(device.internals().shaders, shader("resolve_published.comp.glsl")),
       constants_("shadow-width constants") {}
@@ -79,6 +84,11 @@ void ShadowWidthMap::describe(ParameterVisitor& visitor) {
         {.name = "inner_edges",
          .help = "exact mode: penumbrae on casters too, from edges where casters overlap in the map"},
         innerEdges_);
+    visitor.boolean(
+        {.name = "hidden_edges",
+         .help =
+             "with inner edges: penumbrae of what ends beneath another caster, too, from a second depth map"},
+        hiddenEdges_);
     visitor.boolean({.name = "reuse_maps", .help = "keep the maps while nothing that they show has changed"},
                     reuseMaps_);
     visitor.boolean(
@@ -113,7 +123,7 @@ void ShadowWidthMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const LightCameras cameras = fitMapCameras(inputs.light, scene, mapSize_px_);
 
     std::pmr::vector<double> key{
-        {double(mode_), double(mapSize_px_), double(innerEdges_), double(neighbours_),
+        {double(mode_), double(mapSize_px_), double(innerEdges_), double(hiddenEdges_), double(neighbours_),
          double(startDifference_), double(largestHalfExtent(inputs.light))},
         gl::LedgerScope::frameMemory()};
     appendMapKey(key, inputs, scene, cameras);
@@ -134,12 +144,19 @@ void ShadowWidthMap::makeMaps(const ShadowInputs& inputs, const LightSpaceScene&
                               std::span<const LightCamera> cameras) {
     const bool isAnyBoth = std::ranges::any_of(
         inputs.casters, [](const Caster& caster) { return caster.casts && caster.receives; });
-    hasInnerEdges_ = mode_ == exact && innerEdges_ && isAnyBoth;
     backFaces_ = mode_ != exact && !isAnyBoth;
     {
         const auto pass = timers_.pass("shadow-width/depth map");
         depthMap_.render(inputs.casters, scene, cameras, mapSize_px_,
                          backFaces_ ? DepthMap::Surface::farthestBack : DepthMap::Surface::nearest);
+        kinds_ = mode_ == exact && innerEdges_ && isAnyBoth ? 2 : 1;
+        if (mode_ == exact && innerEdges_ && hiddenEdges_) {
+            const std::pmr::vector<Caster> hiding = castersThatHideEdges(inputs, scene, cameras);
+            if (!hiding.empty()) {
+                kinds_ = 3;
+                farthestMap_.render(hiding, scene, cameras, mapSize_px_, DepthMap::Surface::farthestFront);
+            }
+        }
     }
     if (cameras.empty()) return;
     faceFromLight_ = cameras.front().faceFromLight;
@@ -174,9 +191,9 @@ void ShadowWidthMap::allocateWidths(bool scratch) {
 }
 
 void ShadowWidthMap::findNearestEdges(const AreaLight& light) {
-    const int layers = depthMap_.count() * (hasInnerEdges_ ? 2 : 1);
+    const int layers = depthMap_.count() * kinds_;
     allocate(cells_, cellsAcross(), layers, GL_RGBA32UI, "edges in cells");
-    allocate(columns_, cellsAcross(), layers, GL_R32F, "nearest edges in columns");
+    allocate(columns_, cellsAcross(), layers, GL_RG32F, "nearest edges in columns");
     allocate(nearest_, cellsAcross(), layers, GL_RGBA32UI, "nearest edges");
     allocate(cellWidths_, cellsAcross(), layers, GL_RG32F, "shadow widths of cells");
     const int blocks = groupsFor(mapSize_px_, 8);
@@ -187,11 +204,12 @@ void ShadowWidthMap::findNearestEdges(const AreaLight& light) {
     glClearTexImage(cells_.name(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, nullptr);
 
     depthMap_.bind(3, 0);
+    if (kinds_ == 3) farthestMap_.texture().bind(2);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, listedBlocks_.name());
     {
         const auto pass = timers_.pass("shadow-width/blocks");
         edgeBlocks_.use();
-        glUniform1i(0, hasInnerEdges_);
+        glUniform1i(0, kinds_);
         glDispatchCompute(GLuint(groupsFor(blocks, 8)), GLuint(groupsFor(blocks, 8)),
                           GLuint(depthMap_.count()));
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
@@ -200,7 +218,7 @@ void ShadowWidthMap::findNearestEdges(const AreaLight& light) {
         const auto pass = timers_.pass("shadow-width/cells");
         cellEdges_.use();
         cells_.bindImage(0, GL_WRITE_ONLY);
-        glUniform1i(0, hasInnerEdges_);
+        glUniform1i(0, kinds_);
         glUniform1i(1, cell_px());
         glUniform1i(2, depthMap_.count());
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, listedBlocks_.name());
@@ -221,7 +239,7 @@ void ShadowWidthMap::findNearestEdges(const AreaLight& light) {
         columns_.bind(1);
         nearest_.bindImage(0, GL_READ_WRITE);
         cellWidths_.bindImage(1, GL_READ_WRITE);
-        glUniform1i(0, hasInnerEdges_);
+        glUniform1i(0, kinds_);
         glUniform1i(1, cell_px());
         glUniform1i(2, depthMap_.count());
         glUniform1f(3, largestHalfExtent(light));
@@ -291,7 +309,7 @@ ShadowWidthConstants ShadowWidthMap::constants(const AreaLight& light,
     result.emission = glm::dvec4(spaceFromLight * glm::dvec3(0, 0, -1), 0);
     result.attenuation = {physical_ ? -1 : cScale_, cBias_, 1 / startDifference(startDifference_), 0};
     result.extent.x = largestHalfExtent(light);
-    result.light = {int(light.shape), depthMap_.count(), isOneSided(light), hasInnerEdges_};
+    result.light = {int(light.shape), depthMap_.count(), isOneSided(light), kinds_};
     result.firstCamera = firstCamera_;
     result.cells = {cell_px(), cellsAcross(), 0, 0};
     return result;
@@ -317,25 +335,39 @@ void ShadowWidthMap::resolve(const ShadowInputs& inputs, const glm::dmat4& light
 
 void ShadowWidthMap::resolveExact(const View& view, const VisibilityBuffer& out) {
     const std::size_t pixels = std::size_t(out.width_px()) * std::size_t(out.height_px());
-    if (penumbraPixels_.size_bytes() < (4 + pixels) * sizeof(GLuint)) {
-        penumbraPixels_ = gl::Buffer((4 + pixels) * sizeof(GLuint), "pixels in penumbrae");
+    for (gl::Buffer* list : {&penumbraPixels_, &crowdedPixels_}) {
+        if (list->size_bytes() < (4 + pixels) * sizeof(GLuint))
+            *list = gl::Buffer((4 + pixels) * sizeof(GLuint), "pixels in penumbrae");
+        list->write(std::as_bytes(std::span(nothingListed)));
     }
-    const std::size_t variant = depthMap_.count() == 1 && view.normalTexture != 0;
-    penumbraPixels_.write(std::as_bytes(std::span(nothingListed)));
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, penumbraPixels_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, crowdedPixels_.name());
+    const bool isOneMap = depthMap_.count() == 1 && view.normalTexture != 0;
+    const std::size_t variant = isOneMap ? std::size_t(kinds_) : 0;
     {
         const auto pass = timers_.pass("shadow-width/resolve");
-        resolve_[variant].use();
+        (isOneMap ? resolveOneMap_ : resolve_).use();
         cellWidths_.bind(4);
         gl::dispatchPixels(out.width_px(), out.height_px());
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     }
+    nearest_.bind(4);
+    if (kinds_ == 3) farthestMap_.texture().bind(5);
+    cellWidths_.bind(6);
+    const auto dispatchListed = [](const gl::Program& program, const gl::Buffer& list) {
+        program.use();
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, list.name());
+        glDispatchComputeIndirect(0);
+    };
     {
         const auto pass = timers_.pass("shadow-width/penumbra");
-        penumbra_[variant].use();
-        nearest_.bind(4);
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, penumbraPixels_.name());
-        glDispatchComputeIndirect(0);
+        dispatchListed(penumbra_[variant], penumbraPixels_);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                        GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    }
+    {
+        const auto pass = timers_.pass("shadow-width/crowded");
+        dispatchListed(crowded_[variant], crowdedPixels_);
     }
 }
 
@@ -356,7 +388,7 @@ void ShadowWidthMap::inspect(InspectionVisitor& visitor) const {
     if (mode_ == exact && cellWidths_.name() != 0) {
         visitor.texture({.name = "distance to the nearest edge",
                          .texture = cellWidths_.name(),
-                         .layers = count * (hasInnerEdges_ ? 2 : 1),
+                         .layers = count * kinds_,
                          .white = 64});
     } else if (mode_ != exact && widths_.name() != 0) {
         visitor.texture({.name = "shadow-width map", .texture = widths_.name(), .layers = count});

@@ -51,6 +51,7 @@ class ShadowWidthMap final : public Technique {
     int mode_ = exact;
     int mapSize_px_ = 1024;
     bool innerEdges_ = true;
+    bool hiddenEdges_ = true;
     bool reuseMaps_ = true;
     bool physical_ = true;
     float cScale_ = 8;
@@ -59,19 +60,21 @@ class ShadowWidthMap final : public Technique {
     int neighbours_ = 1;
     int startDifference_ = 3;
 
-    DepthMap depthMap_;
+    DepthMap depthMap_, farthestMap_;
     gl::Program edgeBlocks_, cellEdges_, edgeColumns_, edgeRows_;
-    std::array<gl::Program, 2> resolve_, penumbra_;  ///< whatever there is; one map, and normals
+    gl::Program resolve_, resolveOneMap_;  ///< whatever there is; one map, and normals
+    std::array<gl::Program, 4> penumbra_,
+        crowded_;  ///< whatever there is; one map, normals and so many kinds
     gl::Program composite_, published_;
     gl::Texture cells_, columns_, nearest_, cellWidths_;  ///< exact mode
     gl::Texture widths_, scratch_, curveTable_;           ///< published modes
     int tabulatedCurve_ = -1;
-    gl::Buffer listedBlocks_, penumbraPixels_;
+    gl::Buffer listedBlocks_, penumbraPixels_, crowdedPixels_;
     gl::ConstantBuffer<ShadowWidthConstants> constants_;
     ViewBinding view_;
     gl::PassTimers timers_;
 
-    bool hasInnerEdges_ = false;  ///< of the maps as they are
+    int kinds_ = 1;  ///< of edges (edge_cells.glsl) in the maps as they are
     bool backFaces_ = false;
     LightCameraConstants firstCamera_{};  ///< in its own space
     glm::dmat4 faceFromLight_{1};

@@ -3,112 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <memory>
 #include <optional>
 
 #include "src/gl/gl.h"
+#include "src/techniques/shadow_width_map/map_cameras.h"
 #include "src/techniques/shadow_width_map/widths_cpu.h"
 #include "studio/scene/builtin/builtin.h"
 #include "tests/support/technique_test.h"
 
 namespace penumbra::studio {
 namespace {
-
-// -- The curve
-// -------------------------------------------------------------------------------------------------------
-
-std::string complaintAbout(const AttenuationFunction& attenuation) {
-    try {
-        tabulateAttenuation(attenuation);
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
-}
-
-TEST(Attenuation, PublishedCurvesHaveTheFiveProperties) {
-    EXPECT_EQ(complaintAbout(linearAttenuation), "");
-    EXPECT_EQ(complaintAbout(smoothAttenuation), "");
-    const std::vector<float> table = tabulateAttenuation(linearAttenuation);
-    EXPECT_EQ(table.front(), 1);
-    EXPECT_EQ(table.back(), 0);
-    EXPECT_NEAR(table[table.size() / 8], 1 - attenuationTableEnd / 8, 0.02) << "half a table entry is 0.008";
-}
-
-TEST(Attenuation, ViolatedPropertyIsNamed) {
-    const auto f = [](float sd, float sw) { return linearAttenuation(sd, sw); };
-    EXPECT_NE(complaintAbout([&](float sd, float sw) { return 0.9f * f(sd, sw); }).find("property 1"),
-              std::string::npos);
-    EXPECT_NE(complaintAbout([&](float sd, float sw) {
-                  return sd == 0 ? 1 : std::max(0.0f, 1 - sw);
-              }).find("property 2"),
-              std::string::npos);
-    EXPECT_NE(complaintAbout([&](float sd, float sw) {
-                  return sd == 0 || sw < sd ? 1.0f : 0.0f;
-              }).find("property 3"),
-              std::string::npos)
-        << "level before its step: not strictly falling";
-    EXPECT_NE(complaintAbout([&](float sd, float sw) {
-                  return f(sd, sw) * (sd == 0 || sw < 0.4f * sd ? 1.0f : 0.3f);
-              }).find("property 4"),
-              std::string::npos);
-    EXPECT_NE(complaintAbout([](float, float) {
-                  return std::numeric_limits<float>::quiet_NaN();
-              }).find("property 0"),
-              std::string::npos);
-}
-
-// -- Widths
-// ----------------------------------------------------------------------------------------------------------
-
-/// A map as drawn: '#' blocks.
-struct Drawing {
-    explicit Drawing(const std::vector<std::string>& rows)
-        : size(int(rows.size())), blocked(new bool[rows.size() * rows.size()]) {
-        for (int y = 0; y < size; ++y) {
-            for (int x = 0; x < size; ++x)
-                blocked[std::size_t(y * size + x)] = rows[std::size_t(y)][std::size_t(x)] == '#';
-        }
-    }
-    std::span<const bool> span() const { return {blocked.get(), std::size_t(size * size)}; }
-    int size;
-    std::unique_ptr<bool[]> blocked;
-};
-
-TEST(Widths, SweepsCountStepsToTheNearestLitTexel) {
-    const Drawing drawing({"######", "######", "##.###", "######", "######", "######"});
-    const std::vector<float> widths = sweepShadowWidths(drawing.span(), drawing.size, 0.125f);
-    for (int y = 0; y < 6; ++y) {
-        for (int x = 0; x < 6; ++x) {
-            EXPECT_EQ(widths[std::size_t(6 * y + x)], 0.125f * float(std::abs(x - 2) + std::abs(y - 2)));
-        }
-    }
-}
-
-TEST(Widths, SweepsStopAtOneWhereNothingIsLit) {
-    const Drawing drawing({"###", "###", "###"});
-    for (const float width : sweepShadowWidths(drawing.span(), 3, 0.25f)) EXPECT_EQ(width, 1);
-}
-
-TEST(Widths, ExactWidthsAreThoseOfASearch) {
-    const Drawing drawing({"#....#.", "..##...", ".####..", ".######", "...##..", "#......", "....#.."});
-    const std::vector<float> widths = exactShadowWidths(drawing.span(), drawing.size);
-    const auto isBlocked = [&](int x, int y) { return drawing.blocked[std::size_t(7 * y + x)]; };
-    for (int i = 0; i < 49; ++i) {
-        float nearest = std::numeric_limits<float>::infinity();
-        for (int y = 0; y < 7; ++y) {
-            for (int x = 0; x < 7; ++x) {
-                const auto dx = float(x - i % 7), dy = float(y - i / 7);
-                if (x < 6 && isBlocked(x, y) != isBlocked(x + 1, y))
-                    nearest = std::min(nearest, std::hypot(dx + 0.5f, dy));
-                if (y < 6 && isBlocked(x, y) != isBlocked(x, y + 1))
-                    nearest = std::min(nearest, std::hypot(dx, dy + 0.5f));
-            }
-        }
-        EXPECT_FLOAT_EQ(widths[std::size_t(i)], nearest) << i;
-    }
-}
 
 class ShadowWidthTest : public TechniqueTest {
   protected:
@@ -147,17 +54,18 @@ class ShadowWidthTest : public TechniqueTest {
     }
 };
 
-/// The CPU goes by the nearest middle of a side, which lies up to half a texel this side of the silhouette, a
-/// quarter on average; the device by a line through many. They differ more where the line cuts a corner:
-/// never by more than a cell.
-TEST_F(ShadowWidthTest, WidthsOfTheDeviceAndTheCpuAgree) {
+/// The device packs places in sixteenths of a texel and directions in hundredths of a radian.
+TEST_F(ShadowWidthTest, WidthsOfTheDeviceAndTheCpuAgreeToHalfATexel) {
     for (const char* scene : {"primitives", "torus"}) {
-        for (const int map_px : {97, 331, 600}) {
+        for (const int map_px : {97, 200, 331, 600}) {
             const std::unique_ptr<Technique> technique = workbench().makeTechnique("shadow-width");
             setParameter(*technique, "map_size", std::to_string(map_px));
             render(*technique, makeBuiltin(scene), {32, 24});
             const std::vector<float> depths = texels(*technique, "depth map", GL_DEPTH_COMPONENT, map_px);
-            const int cell_px = map_px > 256 ? 4 : 1, cells = (map_px + cell_px - 1) / cell_px;
+            const int cell_px = map_px > 256   ? 4
+                                : map_px > 128 ? 2
+                                               : 1,
+                      cells = (map_px + cell_px - 1) / cell_px;
             const std::vector<float> widths =
                 texels(*technique, "distance to the nearest edge", GL_RED, cells);
             const auto blocked = std::make_unique<bool[]>(depths.size());
@@ -165,13 +73,8 @@ TEST_F(ShadowWidthTest, WidthsOfTheDeviceAndTheCpuAgree) {
             const std::vector<float> exact =
                 exactShadowWidths({blocked.get(), depths.size()}, map_px, cell_px);
             ASSERT_TRUE(std::ranges::any_of(exact, [](float d) { return d > 5 && std::isfinite(d); }));
-            std::size_t close = 0;
-            for (std::size_t i = 0; i < widths.size(); ++i) {
-                ASSERT_NEAR(widths[i], exact[i], 0.5f + float(cell_px))
-                    << scene << " " << map_px << " cell " << i;
-                close += std::abs(widths[i] - exact[i] - 0.25f) <= 0.5f;
-            }
-            EXPECT_GE(close, widths.size() * 3 / 4) << scene << " " << map_px;
+            for (std::size_t i = 0; i < widths.size(); ++i)
+                ASSERT_NEAR(widths[i], exact[i], 0.5f) << scene << " " << map_px << " cell " << i;
         }
     }
 }
@@ -228,7 +131,7 @@ TEST_F(ShadowWidthTest, SmallMapsStayNearTheTruth) {
     const Scene scene = makeBuiltin("disk-and-sphere");
     const LightResult exact = truth(scene, size, rays);
     const double ours = penumbraRmse(exact, render("shadow-width", scene, size, {{"map_size", "64"}}));
-    EXPECT_LE(ours, 0.15);
+    EXPECT_LE(ours, 0.14);
     EXPECT_LT(ours, penumbraRmse(exact, render("hard", scene, size, {{"map_size", "64"}})));
     EXPECT_LT(ours, penumbraRmse(exact,
                                  render("shadow-width", scene, size,
@@ -254,6 +157,24 @@ TEST_F(ShadowWidthTest, LightsAmongTheCastersHaveNoSeams) {
     EXPECT_LE(judge(exact, ours).rmse, 0.5 * judge(exact, render("hard", scene, size)).rmse);
 }
 
+/// A strip narrower than its penumbra, of which light is seen past both sides; and a lit gap between two.
+TEST_F(ShadowWidthTest, LightIsSeenPastBothSidesOfANarrowBlocker) {
+    const Scene scene = makeBuiltin("strip");
+    const LightResult exact = truth(scene, size, rays);
+    EXPECT_LE(penumbraRmse(exact, render("shadow-width", scene, size)), 0.015)
+        << "noise of the reference is 0.006; the nearer side alone: 0.021";
+}
+
+TEST_F(ShadowWidthTest, WhatEndsBeneathAnotherCasterKeepsItsUmbra) {
+    const Scene scene = makeBuiltin("overlapping-blockers");
+    const LightResult exact = truth(scene, {320, 180}, rays);
+    const VisibilityMetrics with = judge(exact, render("shadow-width", scene, {320, 180}));
+    const VisibilityMetrics without =
+        judge(exact, render("shadow-width", scene, {320, 180}, {{"hidden_edges", "false"}}));
+    EXPECT_LT(with.leak, 0.6 * without.leak);
+    EXPECT_LT(with.penumbra_rmse, without.penumbra_rmse);
+}
+
 // -- Bad and borderline input
 // ----------------------------------------------------------------------------------------
 
@@ -267,6 +188,27 @@ TEST_F(ShadowWidthTest, BlockersThatFillTheMapLeaveNoLight) {
         const LightResult result =
             render("shadow-width", scene, {40, 30}, {{"mode", mode}, {"map_size", "100"}});
         EXPECT_TRUE(std::ranges::all_of(result.visibility.values, [](float v) { return v == 0; })) << mode;
+    }
+}
+
+TEST_F(ShadowWidthTest, WithoutABlockerEverythingIsLit) {
+    const Scene scene = withMoment(makeBuiltin("half-plane"), [](SceneMoment& moment) {
+        for (Instance& instance : moment.instances) instance.casts = false;
+    });
+    for (const char* mode : {"exact", "compositing", "cpu-sweep"}) {
+        const LightResult result =
+            render("shadow-width", scene, {40, 30}, {{"mode", mode}, {"map_size", "100"}});
+        EXPECT_TRUE(std::ranges::all_of(result.visibility.values, [](float v) { return v == 1; })) << mode;
+    }
+}
+
+/// But for pixels whose texel the silhouette cuts: maps of the two differ in size and place.
+TEST_F(ShadowWidthTest, ALightWithoutASizeCastsHardShadows) {
+    const Scene scene = withLight(makeBuiltin("primitives"), shrinkToPoint);
+    const LightResult hard = render("hard", scene, size);
+    for (const char* mode : {"exact", "compositing", "cpu-sweep"}) {
+        const LightResult ours = render("shadow-width", scene, size, {{"mode", mode}, {"map_size", "2048"}});
+        EXPECT_LE(shareOfDifferentPixels(hard, ours, 0.01f), 0.01) << mode;
     }
 }
 
@@ -332,6 +274,52 @@ TEST_F(ShadowWidthTest, MapsAreMadeAnewOnlyWhenSomethingInThemHasChanged) {
     workbench().open(scene);
     const double before = timesMade(run(moment));
     EXPECT_EQ(timesMade(run(moment)), before + 1);
+}
+
+/// As the paper has it: maps are reused when neither light nor blockers moved. They are what they would have
+/// been without the views before.
+TEST_F(ShadowWidthTest, SmallMovesOfTheCameraKeepTheMaps) {
+    const std::unique_ptr<Technique> technique = workbench().makeTechnique("shadow-width");
+    const Scene scene = makeBuiltin("overlapping-blockers");
+    const SceneMoment moment = scene.at(0);
+    workbench().open(scene);
+    const auto viewAt = [&](int frame) {
+        Camera camera = moment.cameras.front();
+        camera.worldFromCamera = glm::rotate(glm::dmat4(1), 0.001 * frame, glm::dvec3(0, 1, 0)) *
+                                 glm::dmat4(camera.worldFromCamera);
+        return camera;
+    };
+    const auto run = [&](Technique& of, int frame) {
+        return workbench().run("test", of, moment, viewAt(frame), {64, 48}).lights.at(0);
+    };
+    constexpr int frames = 40;
+    LightResult last;
+    for (int frame = 0; frame < frames; ++frame) last = run(*technique, frame);
+    EXPECT_LE(timesMade(last), frames / 8) << "a turn of 2.3 degrees";
+    const std::unique_ptr<Technique> fresh = workbench().makeTechnique("shadow-width");
+    EXPECT_EQ(run(*fresh, frames - 1).visibility.values, last.visibility.values);
+}
+
+TEST(MapCameras, SteadyWindowsHoldAllThatIsWantedAndLittleMore) {
+    const AreaLight light{.shape = LightShape::disk, .radius_m = 0};
+    for (int i = 0; i < 200; ++i) {
+        // A receiver in front of the light, a little larger and farther to the side each time.
+        const double half = 0.3 + 0.001 * i, side = 0.0137 * (i % 40);
+        LightSpaceScene scene;
+        ReceiverRegion::Polygon polygon;
+        for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+            polygon.push_back(glm::dvec3(side + half * x, half * y, -3));
+        scene.receivers.polygons.push_back(polygon);
+        const LightCameras wanted = fitLightCameras(light, scene, {.mapSize_px = 1024, .steadyAxis = true});
+        const LightCameras steady = fitMapCameras(light, scene, 1024);
+        ASSERT_EQ(steady.size(), 1u);
+        const LightCamera &before = wanted[0], &after = steady[0];
+        EXPECT_EQ(before.faceFromLight, after.faceFromLight);
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(after.windowMin, before.windowMin)));
+        EXPECT_TRUE(glm::all(glm::greaterThanEqual(after.windowMax, before.windowMax)));
+        const glm::dvec2 extent = before.windowMax - before.windowMin;
+        EXPECT_LE(after.windowMax.x - after.windowMin.x, 1.08 * std::max(extent.x, extent.y));
+    }
 }
 
 /// Only a host can tell whether a mask's texels are the same as before.

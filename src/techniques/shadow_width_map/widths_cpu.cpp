@@ -2,52 +2,94 @@
 #include "src/techniques/shadow_width_map/widths_cpu.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 namespace penumbra {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+struct Offset {
+    int x, y;
+};
+constexpr std::array<Offset, 4> directions = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
-/// Squared distances along one line, from squared heights.
-class LineTransform {
+struct Line {
+    double x = 0, y = 0;
+    double normalX = 0, normalY = 0;
+};
+
+/// The sides of blocked texels towards those that are not, and lines through them.
+class Sides {
   public:
-    explicit LineTransform(int size)
-        : heights_(std::size_t(size)), sites_(std::size_t(size)), begins_(std::size_t(size)) {}
-
-    void apply(std::vector<double>& values, std::size_t first, std::size_t stride) {
-        const std::size_t size = heights_.size();
-        for (std::size_t i = 0; i < size; ++i) heights_[i] = values[first + i * stride];
-        int top = -1;
-        for (std::size_t i = 0; i < size; ++i) {
-            if (heights_[i] == infinity) continue;
-            double begin = -infinity;
-            for (; top >= 0; --top) {
-                const std::size_t site = sites_[std::size_t(top)];
-                begin = (heights_[i] + double(i * i) - heights_[site] - double(site * site)) /
-                        (2.0 * double(i - site));
-                if (begin > begins_[std::size_t(top)]) break;
-                begin = -infinity;
+    Sides(std::span<const bool> blocked, int size_px) : size_px_(size_px), sides_(blocked.size()) {
+        for (int y = 0; y < size_px; ++y) {
+            for (int x = 0; x < size_px; ++x) {
+                for (unsigned i = 0; i < 4; ++i) {
+                    const int x2 = std::clamp(x + directions[i].x, 0, size_px - 1);
+                    const int y2 = std::clamp(y + directions[i].y, 0, size_px - 1);
+                    if (blocked[index(x, y)] && !blocked[index(x2, y2)]) sides_[index(x, y)] |= 1u << i;
+                }
             }
-            ++top;
-            sites_[std::size_t(top)] = i;
-            begins_[std::size_t(top)] = begin;
-        }
-        if (top < 0) return;
-        for (std::size_t i = size; i-- > 0;) {
-            while (begins_[std::size_t(top)] > double(i)) --top;
-            const std::size_t site = sites_[std::size_t(top)];
-            const double across = double(i) - double(site);
-            values[first + i * stride] = across * across + heights_[site];
         }
     }
 
+    unsigned of(int x, int y) const {
+        return std::min(x, y) < 0 || std::max(x, y) >= size_px_ ? 0 : sides_[index(x, y)];
+    }
+
+    /// Through the middles of all sides at most far_px texels away and fromLine_px from `near` that do not
+    /// look the other way; `near` where they cancel.
+    Line fit(int x, int y, int far_px, const Line& near, double fromLine_px) const {
+        const Offset look = lookOf(of(x, y));
+        Line sum;
+        int count = 0;
+        for (int y2 = y - far_px; y2 <= y + far_px; ++y2) {
+            for (int x2 = x - far_px; x2 <= x + far_px; ++x2) {
+                for (unsigned i = 0; i < 4; ++i) {
+                    const Offset& direction = directions[i];
+                    const double middleX = x2 + 0.5 + 0.5 * direction.x;
+                    const double middleY = y2 + 0.5 + 0.5 * direction.y;
+                    const double off = (middleX - near.x) * near.normalX + (middleY - near.y) * near.normalY;
+                    if ((of(x2, y2) >> i & 1) == 0 || look.x * direction.x + look.y * direction.y < 0 ||
+                        std::abs(off) > fromLine_px) {
+                        continue;
+                    }
+                    sum.x += middleX;
+                    sum.y += middleY;
+                    sum.normalX += direction.x;
+                    sum.normalY += direction.y;
+                    ++count;
+                }
+            }
+        }
+        const double length = std::hypot(sum.normalX, sum.normalY);
+        if (length == 0) return near;
+        return {sum.x / count, sum.y / count, sum.normalX / length, sum.normalY / length};
+    }
+
   private:
-    std::vector<double> heights_;
-    std::vector<std::size_t> sites_;
-    std::vector<double> begins_;
+    std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(size_px_) + std::size_t(x); }
+
+    /// Where the sides look to; where they cancel, where the first does.
+    static Offset lookOf(unsigned sides) {
+        Offset sum{0, 0}, first{0, 0};
+        for (unsigned i = 4; i-- > 0;) {
+            if ((sides >> i & 1) == 0) continue;
+            first = directions[i];
+            sum = {sum.x + first.x, sum.y + first.y};
+        }
+        return sum.x == 0 && sum.y == 0 ? first : sum;
+    }
+
+    int size_px_;
+    std::vector<unsigned> sides_;
 };
+
+/// As a signed byte keeps a number of this range.
+double packed(double value, double range) {
+    return std::round(std::clamp(value / range, -1.0, 1.0) * 127) / 127 * range;
+}
 
 }  // namespace
 
@@ -70,29 +112,59 @@ std::vector<float> sweepShadowWidths(std::span<const bool> blocked, int size_px,
     return widths;
 }
 
-std::vector<float> exactShadowWidths(std::span<const bool> blocked, int size_px, int cell_px) {
-    const auto size = std::size_t(size_px), cell = std::size_t(cell_px);
-    const std::size_t cells = (size + cell - 1) / cell;
-    // On a grid of half texels, a texel's centre is at odd places, and the middles of its sides beside that.
-    const std::size_t halves = 2 * cells * cell + 1;
-    std::vector<double> squares(halves * halves, infinity);
-    for (std::size_t y = 0; y < size; ++y) {
-        for (std::size_t x = 0; x < size; ++x) {
-            const bool own = blocked[y * size + x];
-            if (x + 1 < size && blocked[y * size + x + 1] != own)
-                squares[(2 * y + 1) * halves + 2 * x + 2] = 0;
-            if (y + 1 < size && blocked[(y + 1) * size + x] != own)
-                squares[(2 * y + 2) * halves + 2 * x + 1] = 0;
+std::vector<SilhouettePiece> silhouettePieces(std::span<const bool> blocked, int size_px, int cell_px) {
+    const Sides sides(blocked, size_px);
+    const int cells = (size_px + cell_px - 1) / cell_px;
+    std::vector<SilhouettePiece> pieces;
+    for (int cell = 0; cell < cells * cells; ++cell) {
+        const int left = cell % cells * cell_px, top = cell / cells * cell_px;
+        int nearest = std::numeric_limits<int>::max(), x = 0, y = 0;
+        for (int i = 0; i < cell_px * cell_px; ++i) {
+            const int dx = 2 * (i % cell_px) + 1 - cell_px, dy = 2 * (i / cell_px) + 1 - cell_px;
+            const int square = dx * dx + dy * dy;
+            if (square >= nearest || sides.of(left + i % cell_px, top + i / cell_px) == 0) continue;
+            nearest = square;
+            x = left + i % cell_px;
+            y = top + i / cell_px;
         }
+        if (nearest == std::numeric_limits<int>::max()) continue;
+        Line line = sides.fit(x, y, 1, {}, 0);
+        line = sides.fit(x, y, cell_px == 1 ? 1 : std::min(cell_px + 1, 4), line, 1);
+        // Along the line, the piece is where its texel is.
+        const double along = (x + 0.5 - line.x) * -line.normalY + (y + 0.5 - line.y) * line.normalX;
+        const double middleX = x + 0.5 + packed(line.x - along * line.normalY - x - 0.5, 8);
+        const double middleY = y + 0.5 + packed(line.y + along * line.normalX - y - 0.5, 8);
+        const double border = 0.01 * cell_px;
+        pieces.push_back({middleX, middleY, packed(line.normalX, 1), packed(line.normalY, 1),
+                          std::clamp(middleX, left + border, left + cell_px - border),
+                          std::clamp(middleY, top + border, top + cell_px - border)});
     }
-    const int length = int(halves);
-    LineTransform line(length);
-    const auto middleOf = [&](std::size_t index) { return cell * (2 * index + 1); };
-    for (std::size_t x = 0; x < halves; ++x) line.apply(squares, x, halves);
-    for (std::size_t row = 0; row < cells; ++row) line.apply(squares, middleOf(row) * halves, 1);
-    std::vector<float> widths(cells * cells);
+    return pieces;
+}
+
+std::vector<float> exactShadowWidths(std::span<const bool> blocked, int size_px, int cell_px) {
+    const auto cells = std::size_t((size_px + cell_px - 1) / cell_px);
+    std::vector<std::vector<SilhouettePiece>> columns(cells);
+    for (const SilhouettePiece& piece : silhouettePieces(blocked, size_px, cell_px))
+        columns[std::size_t(piece.siteX_px) / std::size_t(cell_px)].push_back(piece);
+
+    std::vector<float> widths(cells * cells, std::numeric_limits<float>::infinity());
     for (std::size_t i = 0; i < widths.size(); ++i) {
-        widths[i] = float(0.5 * std::sqrt(squares[middleOf(i / cells) * halves + middleOf(i % cells)]));
+        const std::size_t row = i / cells;
+        const double x = (double(i - row * cells) + 0.5) * cell_px, y = (double(row) + 0.5) * cell_px;
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const std::vector<SilhouettePiece>& column : columns) {
+            if (column.empty()) continue;
+            const SilhouettePiece& piece = *std::ranges::min_element(
+                column, {}, [&](const SilhouettePiece& p) { return std::abs(p.siteY_px - y); });
+            const double toSite = std::hypot(piece.siteX_px - x, piece.siteY_px - y);
+            if (toSite >= nearest) continue;
+            nearest = toSite;
+            const double dx = x - piece.middleX_px, dy = y - piece.middleY_px;
+            const double along =
+                std::clamp(dy * piece.normalX - dx * piece.normalY, -0.75 * cell_px, 0.75 * cell_px);
+            widths[i] = float(std::hypot(dx + along * piece.normalY, dy - along * piece.normalX));
+        }
     }
     return widths;
 }
