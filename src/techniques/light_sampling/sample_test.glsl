@@ -75,7 +75,7 @@ float texelLit(int layer, LayerTap tap, vec3 pos, vec3 normal, float across, vec
     float along = dot(normal, vec3(place, 1.0));
     float receiver_m = across * along > 0.0 ? across / along : pos.z + 64.0 * texel_m;
 #endif
-    receiver_m = clamp(receiver_m, pos.z - 64.0 * texel_m, pos.z + 64.0 * texel_m);
+    receiver_m = clamp(receiver_m, pos.z - 64.0 * texel_m, pos.z);
     receiver_m -= texel_m + 4e-6 * length(pos);
 #ifdef DISTANT
     return receiver_m <= nearFar_m.y - stored * (nearFar_m.y - nearFar_m.x) || stored == 0.0 ? 1.0 : 0.0;
