@@ -79,7 +79,7 @@ void startTree() {
         before = side * side;
     }
     subdivision.coarseVertices = coarse;
-    for (int y = 0; y < 8; ++y) subdivision.deepestRows[y] = 0u;
+    for (int y = 0; y < 8; ++y) subdivision.deepestRows[y] = baseDepth == deepestLevel ? 255u : 0u;
     subdivision.decidedLevels = baseDepth;
     subdivision.reachedMaximum = subdivision.errorBound = 0u;
     for (int i = 0; i < maxStages; ++i) plan.stages[i] = ivec4(slots, 0, 0, 0);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/techniques/light_sampling/receiver_tiles.h"
+
+namespace penumbra {
+
+ReceiverTiles::ReceiverTiles(Device& device)
+    : lookup_(device, "src/techniques/light_sampling/receiver_tiles.comp.glsl"),
+      all_(mostTiles * sizeof(ReceiverTile), "all receivers of light samples"),
+      unsettled_(mostTiles * sizeof(ReceiverTile), "unsettled receivers of light samples"),
+      stale_(sizeof(GLuint), "whether receivers of light samples have moved") {}
+
+void ReceiverTiles::findAll(const ShadowInputs& inputs, const SampleCameras& cameras, const SampleMaps& maps,
+                            const VisibilityBuffer& out) {
+    // Pixels of 8 x 8 invocations, and twice as many across until the tiles are few enough.
+    for (tile_px_ = 8;; tile_px_ *= 2) {
+        across_ = (out.width_px() + tile_px_ - 1) / tile_px_;
+        down_ = (out.height_px() + tile_px_ - 1) / tile_px_;
+        if (count() <= mostTiles) break;
+    }
+    constexpr GLuint no = 0;
+    stale_.write(std::as_bytes(std::span(&no, 1)));
+    lookup_.use(inputs.light, cameras, {}, {});
+    dispatch(all_, maps);
+}
+
+void ReceiverTiles::findUnsettled(const ShadowInputs& inputs, const SampleCameras& cameras,
+                                  const SampleMaps& maps, const VisibilityBuffer& out) {
+    lookup_.use(inputs.light, cameras, {}, {.colored = out.colored(), .bits = true});
+    dispatch(unsettled_, maps);
+}
+
+void ReceiverTiles::dispatch(const gl::Buffer& tiles, const SampleMaps& maps) {
+    maps.bind();
+    maps.setBatch(stageOfAll, 0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, tiles.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, stale_.name());
+    glUniform1i(16, tile_px_);
+    glDispatchCompute(GLuint(across_), GLuint(down_), 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+}  // namespace penumbra
