@@ -45,7 +45,7 @@ uvec2 quadsOf(int vertex) {
 // How far from the receiver's own place the filter between samples looks, in the map's units (besideSampleLit): the
 // line from the place beside the sample to the receiver passes a blocker's depth b, where the receiver's is z, at
 // (step + (receiver - step) b / z) seen from the sample. That is off by (1 - b / z) (step.xy - tan step.z) / (the place's
-// depth), which is largest for the nearest blocker there is.
+// depth), which is largest for the nearest blocker there is. Returned without the first factor; distant: a slope.
 float reachInMap(LightSample light, SampleCamera camera, bool isOrthographic) {
     if (reach == 0.0) return 0.0;
     float most = 0.0;
@@ -94,8 +94,9 @@ void addTile(ReceiverTile tile, SampleCamera camera, float margin, bool isOrthog
         if (high.z <= 0.0 || any(lessThan(high.xy, min(windowMin * high.z, windowMin * max(low.z, 0.0)))) ||
             any(greaterThan(low.xy, max(windowMax * high.z, windowMax * max(low.z, 0.0))))) return;
         if (low.z > 1e-3 * high.z) {
-            from = min(low.xy / low.z, low.xy / high.z) - margin;
-            to = max(high.xy / low.z, high.xy / high.z) + margin;
+            float most = margin * max(1.0 - nearestBlocker_m / high.z, 0.0);
+            from = min(low.xy / low.z, low.xy / high.z) - most;
+            to = max(high.xy / low.z, high.xy / high.z) + most;
         }
     }
     // Two texels make up for rounding and for kernels of three.
