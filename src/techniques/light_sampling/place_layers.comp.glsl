@@ -26,6 +26,8 @@ layout(location = 10) uniform mat3 face0FromLight;
 layout(location = 13) uniform bool asksByQuads;      // tiles say which quads of level 3 they ask for
 
 shared uint farthest[maskSide * maskSide];
+shared uint alongRows[maskSide * maskSide];
+shared uint farthestOfAll;
 shared int rim[4];
 
 const float beyond = 3e38;  // of every receiver
@@ -42,11 +44,11 @@ uvec2 quadsOf(int vertex) {
     return quads;
 }
 
-// How far from the receiver's own place the filter between samples looks, in the map's units (besideSampleLit): the
-// line from the place beside the sample to the receiver passes a blocker's depth b, where the receiver's is z, at
+// How far from the receiver's own place the filter between samples looks (besideSampleLit), in the map's units. The line
+// from the place beside the sample to the receiver passes a blocker's depth b, where the receiver's is z, at
 // (step + (receiver - step) b / z) seen from the sample. That is off by (1 - b / z) (step.xy - tan step.z) / (the place's
-// depth), which is largest for the nearest blocker there is. Returned without the first factor; distant: a slope.
-float reachInMap(LightSample light, SampleCamera camera, bool isOrthographic) {
+// depth), which is largest for the nearest blocker and the farthest receiver that there are.
+float reachInMap(LightSample light, SampleCamera camera, bool isOrthographic, float farthest_m) {
     if (reach == 0.0) return 0.0;
     float most = 0.0;
     for (int i = 0; i < 4; ++i) {
@@ -55,19 +57,22 @@ float reachInMap(LightSample light, SampleCamera camera, bool isOrthographic) {
         if (isOrthographic) {
             vec3 beside = face0FromLight * (light.place.xyz + along);
             if (beside.z > -0.02) return beyond;
-            most = max(most, length(beside.xy / beside.z - camera.tap.origin.xy));
+            float slope = length(beside.xy / beside.z - camera.tap.origin.xy);
+            most = max(most, slope * max(farthest_m - nearestBlocker_m, 0.0));
         } else {
             vec3 step = face0FromLight * along;
             float depth = nearestBlocker_m - abs(step.z);
             if (!(depth > 0.0)) return beyond;
             vec2 window = max(abs(camera.tap.window.xy), abs(camera.tap.window.xy + 1.0 / camera.tap.window.zw));
-            most = max(most, (length(step.xy) + length(window) * abs(step.z)) / depth);
+            float tangent = (length(step.xy) + length(window) * abs(step.z)) / depth;
+            most = max(most, tangent * max(1.0 - nearestBlocker_m / farthest_m, 0.0));
         }
     }
     return most;
 }
 
-void addTile(ReceiverTile tile, SampleCamera camera, float margin, bool isOrthographic) {
+// Enters a tile's receivers, at their own places.
+void addTile(ReceiverTile tile, SampleCamera camera, bool isOrthographic) {
     vec3 low, high;
     for (int i = 0; i < 3; ++i) {
         low[i] = fromOrderedBits(tile.low[i]);
@@ -77,9 +82,8 @@ void addTile(ReceiverTile tile, SampleCamera camera, float margin, bool isOrthog
     vec2 from = windowMin, to = windowMax;
     if (isOrthographic) {
         vec2 a = camera.tap.origin.xy * low.z, b = camera.tap.origin.xy * high.z;
-        float most = margin * max(high.z - nearestBlocker_m, 0.0);
-        from = low.xy - max(a, b) - most;
-        to = high.xy - min(a, b) + most;
+        from = low.xy - max(a, b);
+        to = high.xy - min(a, b);
     } else {
         if (isCube) {
             mat3 turn = mat3(camera.camera.faceFromLight);
@@ -91,12 +95,12 @@ void addTile(ReceiverTile tile, SampleCamera camera, float margin, bool isOrthog
         low -= camera.tap.origin.xyz;
         high -= camera.tap.origin.xyz;
         // None of it in the pyramid that the map shows.
-        if (high.z <= 0.0 || any(lessThan(high.xy, min(windowMin * high.z, windowMin * max(low.z, 0.0)))) ||
-            any(greaterThan(low.xy, max(windowMax * high.z, windowMax * max(low.z, 0.0))))) return;
+        float foremost = max(low.z, 0.0);
+        if (high.z <= 0.0 || any(lessThan(high.xy, min(windowMin * high.z, windowMin * foremost))) ||
+            any(greaterThan(low.xy, max(windowMax * high.z, windowMax * foremost)))) return;
         if (low.z > 1e-3 * high.z) {
-            float most = margin * max(1.0 - nearestBlocker_m / high.z, 0.0);
-            from = min(low.xy / low.z, low.xy / high.z) - most;
-            to = max(high.xy / low.z, high.xy / high.z) + most;
+            from = min(low.xy / low.z, low.xy / high.z);
+            to = max(high.xy / low.z, high.xy / high.z);
         }
     }
     // Two texels make up for rounding and for kernels of three.
@@ -105,6 +109,7 @@ void addTile(ReceiverTile tile, SampleCamera camera, float margin, bool isOrthog
     ivec2 first = ivec2(floor(clamp(uvMin, 0.0, 1.0) * float(maskSide)));
     ivec2 last = min(ivec2(floor(clamp(uvMax, 0.0, 1.0) * float(maskSide))), maskSide - 1);
     uint depth = orderedBits(high.z);
+    atomicMax(farthestOfAll, depth);
     for (int y = first.y; y <= last.y; ++y) {
         for (int x = first.x; x <= last.x; ++x) atomicMax(farthest[y * maskSide + x], depth);
     }
@@ -120,25 +125,49 @@ void main() {
     if (int(gl_WorkGroupID.x) >= slotCount() * faces) return;
     int slot = first + int(gl_WorkGroupID.x) / faces;
     int layer = layerOf(first) + int(gl_WorkGroupID.x);
-    SampleCamera camera = cameras[sampleOfSlot[slot] * faces + int(gl_WorkGroupID.x) % faces];
+    int vertex = sampleOfSlot[slot];
+    SampleCamera camera = cameras[vertex * faces + int(gl_WorkGroupID.x) % faces];
     bool isOrthographic = camera.camera.depth.z == 1.0;
     bool showsAll = tileCount < 0;
     for (int i = index; i < maskSide * maskSide; i += 256) farthest[i] = showsAll ? orderedBits(beyond) : 0u;
     if (index == 0) {
         layerCameras[layer] = camera.camera;
         layerTaps[layer] = camera.tap;
+        farthestOfAll = 0u;
         rim = showsAll ? int[4](0, 0, maskSide - 1, maskSide - 1) : int[4](maskSide, maskSide, -1, -1);
     }
     barrier();
-    uvec2 quads = quadsOf(sampleOfSlot[slot]);
-    float margin = reachInMap(samples[sampleOfSlot[slot]], camera, isOrthographic);
+    uvec2 quads = quadsOf(vertex);
     for (int i = index; i < tileCount; i += 256) {
         ReceiverTile tile = tiles[i];
         if (tile.low.x > tile.high.x) continue;
         if (quads != uvec2(0u) && ((quads.x & tile.low.w) | (quads.y & tile.high.w)) == 0u) continue;
-        addTile(tile, camera, margin, isOrthographic);
+        addTile(tile, camera, isOrthographic);
     }
     barrier();
-    for (int i = index; i < maskSide * maskSide; i += 256) masks[layer].farthest[i] = farthest[i];
-    if (index == 0) masks[layer].cells = ivec4(rim[0], rim[1], rim[2], rim[3]);
+    // What is asked for from beside: farther than its own place by some cells.
+    ivec2 around = ivec2(0);
+    if (rim[2] >= 0 && farthestOfAll != 0u) {
+        float most = reachInMap(samples[vertex], camera, isOrthographic, fromOrderedBits(farthestOfAll));
+        around = ivec2(ceil(min(most * camera.tap.window.zw, 1.0) * float(maskSide)));
+    }
+    for (int i = index; i < maskSide * maskSide; i += 256) {
+        int x = i % maskSide;
+        uint depth = 0u;
+        for (int j = max(x - around.x, 0); j <= min(x + around.x, maskSide - 1); ++j) depth = max(depth, farthest[i - x + j]);
+        alongRows[i] = depth;
+    }
+    barrier();
+    for (int i = index; i < maskSide * maskSide; i += 256) {
+        int x = i % maskSide, y = i / maskSide;
+        uint depth = 0u;
+        for (int j = max(y - around.y, 0); j <= min(y + around.y, maskSide - 1); ++j) {
+            depth = max(depth, alongRows[j * maskSide + x]);
+        }
+        masks[layer].farthest[i] = depth;
+    }
+    if (index != 0) return;
+    ivec4 cells = ivec4(rim[0], rim[1], rim[2], rim[3]);
+    if (cells.z >= 0) cells = clamp(cells + ivec4(-around, around), 0, maskSide - 1);
+    masks[layer].cells = cells;
 }

@@ -25,6 +25,7 @@ layout(std430, binding = 6) buffer StaleBlock { uint isStale; };
 #endif
 
 layout(location = 16) uniform int tile_px;
+layout(location = 17) uniform float lightRadius;  // around the light's centre in metres; distant: its sine
 
 shared uint low[3], high[3], quads[2];
 
@@ -35,6 +36,18 @@ void include(vec3 pos) {
     }
 }
 
+// Then all samples count, without a look at each (but black texels do not).
+bool isAllAboveHorizon(Receiver receiver) {
+#if defined(COLORED)
+    return false;
+#elif defined(DISTANT)
+    return receiver.normalLight.z > lightRadius + LEAST_HEIGHT;
+#else
+    float distance = length(receiver.posLight) + lightRadius;
+    return dot(receiver.normalLight, -receiver.posLight) > lightRadius + LEAST_HEIGHT * distance;
+#endif
+}
+
 void add(ivec2 pixel) {
     Receiver receiver;
     if (any(greaterThanEqual(pixel, view.size_px.xy)) || !loadReceiver(pixel, receiver)) return;
@@ -42,9 +55,9 @@ void add(ivec2 pixel) {
 #ifdef BITS
     Comparison comparison = loadComparison(pixel);
     if (isSettled(comparison, receiver)) return;
-    comparison.counted = uvec4(0u);
+    comparison.counted = isAllAboveHorizon(receiver) ? comparison.tree : uvec4(0u);
     for (int word = 0; word < 3; ++word) {
-        for (uint rest = comparison.tree[word]; rest != 0u; rest &= rest - 1u) {
+        for (uint rest = comparison.tree[word] & ~comparison.counted[word]; rest != 0u; rest &= rest - 1u) {
             LightSample light = samples[vertexOf(word, findLSB(rest))];
             precise VALUE weight = countOf(light, receiver) * WEIGHT(light);
             if (weight != VALUE(0.0)) comparison.counted[word] |= rest & -rest;

@@ -1,7 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/techniques/light_sampling/receiver_tiles.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 namespace penumbra {
+namespace {
+
+/// No part of the light is farther from its centre, or from a distant light's axis as a sine.
+double radiusOf(const AreaLight& light) {
+    switch (light.shape) {
+        case LightShape::rect:
+            return 0.5 * std::hypot(light.width_m, light.height_m);
+        case LightShape::distant:
+            return std::sin(std::min(0.5 * light.angle_rad, 0.5 * std::numbers::pi));
+        default:
+            return light.radius_m;
+    }
+}
+
+}  // namespace
 
 ReceiverTiles::ReceiverTiles(Device& device)
     : lookup_(device, "src/techniques/light_sampling/receiver_tiles.comp.glsl"),
@@ -26,6 +45,7 @@ void ReceiverTiles::findAll(const ShadowInputs& inputs, const SampleCameras& cam
 void ReceiverTiles::findUnsettled(const ShadowInputs& inputs, const SampleCameras& cameras,
                                   const SampleMaps& maps, const VisibilityBuffer& out) {
     lookup_.use(inputs.light, cameras, {}, {.colored = out.colored(), .bits = true});
+    glUniform1f(17, float(radiusOf(inputs.light)));
     dispatch(unsettled_, maps);
 }
 
