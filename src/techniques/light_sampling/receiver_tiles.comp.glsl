@@ -29,12 +29,11 @@ layout(location = 17) uniform float lightRadius;  // around the light's centre i
 
 shared uint low[3], high[3], quads[2];
 
-void include(vec3 pos) {
-    for (int i = 0; i < 3; ++i) {
-        atomicMin(low[i], orderedBits(pos[i]));
-        atomicMax(high[i], orderedBits(pos[i]));
-    }
-}
+// Of an invocation's own pixels.
+struct Part {
+    vec3 low, high;
+    uvec2 quads;
+};
 
 // Then all samples count, without a look at each (but black texels do not).
 bool isAllAboveHorizon(Receiver receiver) {
@@ -48,7 +47,7 @@ bool isAllAboveHorizon(Receiver receiver) {
 #endif
 }
 
-void add(ivec2 pixel) {
+void add(ivec2 pixel, inout Part part) {
     Receiver receiver;
     if (any(greaterThanEqual(pixel, view.size_px.xy)) || !loadReceiver(pixel, receiver)) return;
     if (isBehindLight(receiver)) return;
@@ -67,9 +66,11 @@ void add(ivec2 pixel) {
     bool isLevel4Left = false;
     for (int y = 0; y < 8; ++y) isLevel4Left = isLevel4Left || subdivision.deepestRows[y] != 0u;
     if (isLevel4Left && comparison.unsettled == uvec2(0u)) return;
-    for (int i = 0; i < 2; ++i) atomicOr(quads[i], comparison.unsettled[i]);
+    part.quads |= comparison.unsettled;
 #endif
-    include(makeLookup(receiver).pos);
+    vec3 pos = makeLookup(receiver).pos;
+    part.low = min(part.low, pos);
+    part.high = max(part.high, pos);
 }
 
 void main() {
@@ -79,10 +80,18 @@ void main() {
     }
     if (gl_LocalInvocationIndex < 2u) quads[gl_LocalInvocationIndex] = 0u;
     barrier();
+    Part part = Part(vec3(3e38), vec3(-3e38), uvec2(0u));
     for (int y = 0; y < tile_px; y += 8) {
         for (int x = 0; x < tile_px; x += 8) {
-            add(ivec2(gl_WorkGroupID.xy) * tile_px + ivec2(x, y) + ivec2(gl_LocalInvocationID.xy));
+            add(ivec2(gl_WorkGroupID.xy) * tile_px + ivec2(x, y) + ivec2(gl_LocalInvocationID.xy), part);
         }
+    }
+    if (part.low.x <= part.high.x) {
+        for (int i = 0; i < 3; ++i) {
+            atomicMin(low[i], orderedBits(part.low[i]));
+            atomicMax(high[i], orderedBits(part.high[i]));
+        }
+        for (int i = 0; i < 2; ++i) atomicOr(quads[i], part.quads[i]);
     }
     barrier();
     if (gl_LocalInvocationIndex != 0u) return;

@@ -30,11 +30,15 @@ ReceiverTiles::ReceiverTiles(Device& device)
 
 void ReceiverTiles::findAll(const ShadowInputs& inputs, const SampleCameras& cameras, const SampleMaps& maps,
                             const VisibilityBuffer& out) {
-    // Pixels of 8 x 8 invocations, and twice as many across until the tiles are few enough.
+    // Each tile is looked at for each map: it costs about what 64 triangles do (llvmpipe), and the finer tiles
+    // are, the fewer triangles are drawn. The smallest has a pixel for each of 8 x 8 invocations.
+    std::size_t indices = 0;
+    for (const Caster& caster : inputs.casters) indices += caster.casts ? caster.mesh->indices().size() : 0;
+    const int enough = int(std::clamp<std::size_t>(indices / 3 / 64, 256, mostTiles));
     for (tile_px_ = 8;; tile_px_ *= 2) {
         across_ = (out.width_px() + tile_px_ - 1) / tile_px_;
         down_ = (out.height_px() + tile_px_ - 1) / tile_px_;
-        if (count() <= mostTiles) break;
+        if (count() <= enough) break;
     }
     constexpr GLuint no = 0;
     stale_.write(std::as_bytes(std::span(&no, 1)));
