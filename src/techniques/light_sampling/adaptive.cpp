@@ -172,12 +172,12 @@ void AdaptiveLightSampling::findReceivers(const Frame& frame) {
 }
 
 SampleMaps::Needs AdaptiveLightSampling::needs(int depth) const {
-    // What a sample stands for reaches half a quad's side to each side of it at most, and a quarter more where
-    // that is turned into a square around its middle (Cell, in lattice_weights.comp.glsl).
+    // What a sample stands for reaches half a quad's side to each side of it at most, and a quarter more
+    // where that is turned into a square around its middle (Cell, in lattice_weights.comp.glsl).
     return {.tiles = &receivers_.all(),
             .tileCount = receivers_.count(),
             .reach = taps() > 0 ? 0.75f * float(16 >> depth) / latticeSide : 0,
-            .stale = wasStatic_ ? &receivers_.stale() : nullptr};
+            .redraw = wasStatic_ ? &receivers_.redraw() : nullptr};
 }
 
 void AdaptiveLightSampling::subdivide(const Frame& frame) {
@@ -244,7 +244,7 @@ void AdaptiveLightSampling::evaluate(const Frame& frame) {
             const auto pass = timers_.pass("adaptive/unsettled receivers");
             view_.bind(frame.inputs.view, frame.lightFromWorld);
             subdivision_.bind(4, 5);
-            receivers_.findUnsettled(frame.inputs, cameras_, maps_, frame.out);
+            receivers_.findUnsettled(frame.inputs, cameras_, maps_, frame.out, wasStatic_);
         }
         ofDeepest.tiles = &receivers_.unsettled();
         ofDeepest.asksByQuads = true;

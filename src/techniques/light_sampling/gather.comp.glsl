@@ -12,7 +12,7 @@ layout(std430, binding = 2) readonly buffer Masks { LayerMask masks[]; };
 layout(std430, binding = 3) readonly buffer Boxes { CullBox boxes[]; };
 layout(std430, binding = 4) writeonly buffer LayerLists { int layerLists[]; };
 layout(std430, binding = 5) writeonly buffer Commands { DrawCommand commands[]; };
-layout(std430, binding = 6) readonly buffer StaleBlock { uint isStale; };
+layout(std430, binding = 6) readonly buffer RedrawBlock { RedrawGroups redraw; };
 
 layout(location = 5) uniform int casterCount;
 layout(location = 6) uniform int layersInAll;
@@ -59,7 +59,7 @@ bool hasToShow(int layer, int caster) {
 void main() {
     int caster = int(gl_WorkGroupID.x);
     int baseLayer = layerOf(firstSlot());
-    int layers = isKept && isStale == 0u ? 0 : slotCount() * faces;
+    int layers = isKept && redraw.layers.x == 0u ? 0 : slotCount() * faces;
     bool isClear = caster == casterCount;
     int indices = isClear ? 6 : int(boxes[caster].draw.x);
     if (gl_LocalInvocationIndex == 0u) listed = 0;

@@ -19,21 +19,8 @@ layout(std430, binding = 4) buffer Tiles { ReceiverTile tiles[]; };
 #include "src/techniques/light_sampling/lattice_bits.glsl"
 layout(binding = 4) uniform usampler2D shadowBits;
 layout(std430, binding = 5) readonly buffer SubdivisionBlock { Subdivision subdivision; };
-#include "src/techniques/light_sampling/settled.glsl"
-#else
-layout(std430, binding = 6) buffer StaleBlock { uint isStale; };
-#endif
-
-layout(location = 16) uniform int tile_px;
 layout(location = 17) uniform float lightRadius;  // around the light's centre in metres; distant: its sine
-
-shared uint low[3], high[3], quads[2];
-
-// Of an invocation's own pixels.
-struct Part {
-    vec3 low, high;
-    uvec2 quads;
-};
+#include "src/techniques/light_sampling/settled.glsl"
 
 // Then all samples count, without a look at each (but black texels do not).
 bool isAllAboveHorizon(Receiver receiver) {
@@ -46,6 +33,20 @@ bool isAllAboveHorizon(Receiver receiver) {
     return dot(receiver.normalLight, -receiver.posLight) > lightRadius + LEAST_HEIGHT * distance;
 #endif
 }
+#else
+layout(std430, binding = 6) buffer RedrawBlock { RedrawGroups redraw; };
+layout(location = 17) uniform int layers;
+#endif
+
+layout(location = 16) uniform int tile_px;
+
+shared uint low[3], high[3], quads[2];
+
+// Of an invocation's own pixels.
+struct Part {
+    vec3 low, high;
+    uvec2 quads;
+};
 
 void add(ivec2 pixel, inout Part part) {
     Receiver receiver;
@@ -100,7 +101,10 @@ void main() {
     tile.low = uvec4(low[0], low[1], low[2], quads[0]);
     tile.high = uvec4(high[0], high[1], high[2], quads[1]);
 #ifndef BITS
-    if (tiles[index].low != tile.low || tiles[index].high != tile.high) isStale = 1u;
+    if (tiles[index].low != tile.low || tiles[index].high != tile.high) {
+        redraw.tiles.x = gl_NumWorkGroups.x;
+        redraw.layers.x = uint(layers);
+    }
 #endif
     tiles[index] = tile;
 }

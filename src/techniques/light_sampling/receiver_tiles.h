@@ -10,26 +10,27 @@ class ReceiverTiles {
   public:
     explicit ReceiverTiles(Device& device);
 
-    /// Finds all that the light reaches. Expects the view to be bound. What has been found before stays to be
-    /// compared with: see `stale`.
+    /// Finds all that the light reaches, and compares them with those found before. Expects the view to be
+    /// bound.
     void findAll(const ShadowInputs& inputs, const SampleCameras& cameras, const SampleMaps& maps,
                  const VisibilityBuffer& out);
-    /// Finds those that will ask for samples which were not compared. Expects, besides, weighed samples and what
-    /// settled.glsl reads at texture unit 4 and storage block 5.
+    /// Finds those that will ask for samples which were not compared. Expects, besides, weighed samples and
+    /// what settled.glsl reads at texture unit 4 and storage block 5. `isKept`: those found before will do
+    /// unless findAll has found others.
     void findUnsettled(const ShadowInputs& inputs, const SampleCameras& cameras, const SampleMaps& maps,
-                       const VisibilityBuffer& out);
+                       const VisibilityBuffer& out, bool isKept);
 
     const gl::Buffer& all() const { return all_; }
     const gl::Buffer& unsettled() const { return unsettled_; }
     int count() const { return across_ * down_; }
-    /// A number: whether the last findAll has found others than the one before.
-    const gl::Buffer& stale() const { return stale_; }
+    /// RedrawGroups: some if the last findAll has found others than the one before.
+    const gl::Buffer& redraw() const { return redraw_; }
 
   private:
-    void dispatch(const gl::Buffer& tiles, const SampleMaps& maps);
+    void bind(const gl::Buffer& tiles, const SampleMaps& maps);
 
     SampleLookup lookup_;
-    gl::Buffer all_, unsettled_, stale_;
+    gl::Buffer all_, unsettled_, redraw_;
     int tile_px_ = 8, across_ = 0, down_ = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <string>
 
@@ -51,6 +52,12 @@ void bindInOrder(std::initializer_list<const gl::Buffer*> buffers) {
 }
 
 }  // namespace
+
+void dispatchIndirect(const gl::Buffer& buffer, std::size_t offset_bytes) {
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer.name());
+    glDispatchComputeIndirect(GLintptr(offset_bytes));
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+}
 
 SampleMaps::SampleMaps(Device& device)
     : device_(device.internals()),
@@ -119,8 +126,7 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
     grow(layerTaps_, layers * sizeof(LayerTap), "light sampling layer taps");
     grow(layerMasks_, layers * sizeof(LayerMask), "light sampling layer masks");
     grow(layerLists_, casterLayers * sizeof(int), "light sampling layer lists");
-    grow(commands_,
-         (device_.layerFromVertexShader ? casters.size() + 1 : casterLayers) * sizeof(DrawCommand),
+    grow(commands_, (device_.layerFromVertexShader ? casters.size() + 1 : casterLayers) * sizeof(DrawCommand),
          "light sampling draws");
 }
 
@@ -164,7 +170,11 @@ void SampleMaps::placeLayers(int stage, int batch, const SampleCameras& cameras,
     glUniform1i(13, needs.asksByQuads);
     const gl::Buffer& tiles = needs.tiles != nullptr ? *needs.tiles : plan_;
     bindInOrder({&plan_, &slots_, &cameras_, &samples_, &tiles, &layerTaps_, &layerCameras_, &layerMasks_});
-    glDispatchCompute(GLuint(capacity_ * faces_), 1, 1);
+    if (needs.redraw != nullptr) {
+        dispatchIndirect(*needs.redraw, offsetof(RedrawGroups, layers));
+    } else {
+        glDispatchCompute(GLuint(layers()), 1, 1);
+    }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -172,10 +182,10 @@ void SampleMaps::listLayers(int stage, int batch, const Needs& needs) {
     gather_.use();
     setBatch(stage, batch);
     glUniform1i(5, int(casters_.size()));
-    glUniform1i(6, capacity_ * faces_);
-    glUniform1i(7, needs.stale != nullptr);
-    const gl::Buffer& stale = needs.stale != nullptr ? *needs.stale : plan_;
-    bindInOrder({&plan_, &layerCameras_, &layerMasks_, &cullBoxes_, &layerLists_, &commands_, &stale});
+    glUniform1i(6, layers());
+    glUniform1i(7, needs.redraw != nullptr);
+    const gl::Buffer& redraw = needs.redraw != nullptr ? *needs.redraw : plan_;
+    bindInOrder({&plan_, &layerCameras_, &layerMasks_, &cullBoxes_, &layerLists_, &commands_, &redraw});
     glDispatchCompute(GLuint(casters_.size()) + 1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
@@ -184,7 +194,7 @@ void SampleMaps::draw(int stage, int batch, const SampleCameras& cameras, const 
     if (faces_ == 0) return;
     placeLayers(stage, batch, cameras, needs);
     listLayers(stage, batch, needs);
-    const auto layers = std::size_t(capacity_ * faces_);
+    const auto layers = std::size_t(this->layers());
     bindInOrder({&layerCameras_, &casterConstants_, &layerLists_, &layerMasks_});
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
     // In one go where the vertex shader chooses the layer, else layer by layer.
@@ -219,7 +229,7 @@ void SampleMaps::drawCaster(std::size_t caster, std::size_t command) const {
     gl::attachFloats(vertices_.name(), 1, mesh.uvBuffer(), 2);
     glVertexArrayElementBuffer(vertices_.name(), mesh.indexBuffer());
     if (mask.texture != 0) glBindTextureUnit(0, mask.texture);
-    const auto layers = std::size_t(capacity_ * faces_);
+    const auto layers = std::size_t(this->layers());
     glUniform1i(0, int(caster));
     glUniform1i(1, int(device_.layerFromVertexShader ? caster * layers : command));
     glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, commandAt(command));

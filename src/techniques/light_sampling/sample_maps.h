@@ -18,6 +18,9 @@
 
 namespace penumbra {
 
+/// As many groups as the device has written into the buffer.
+void dispatchIndirect(const gl::Buffer& buffer, std::size_t offset_bytes);
+
 class SampleMaps {
   public:
     explicit SampleMaps(Device& device);
@@ -38,6 +41,8 @@ class SampleMaps {
     bool isResident() const { return resident_; }
     /// Slots in a batch.
     int capacity() const { return capacity_; }
+    /// The most maps that a batch can hold.
+    int layers() const { return capacity_ * faces_; }
     int batches(int mostSlots) const { return (mostSlots + capacity_ - 1) / capacity_; }
 
     /// The same casters again, wherever the host keeps them now.
@@ -47,9 +52,10 @@ class SampleMaps {
     struct Needs {
         const gl::Buffer* tiles = nullptr;  ///< of receivers, see ReceiverTiles; null: everything
         int tileCount = 0;
-        bool asksByQuads = false;           ///< tiles say which samples they ask for
-        float reach = 0;                    ///< of the filter between samples, in sides of the unit square
-        const gl::Buffer* stale = nullptr;  ///< a number: 0 if last frame's maps will do; null: they will not
+        bool asksByQuads = false;  ///< tiles say which samples they ask for
+        float reach = 0;           ///< of the filter between samples, in sides of the unit square
+        const gl::Buffer* redraw =
+            nullptr;  ///< RedrawGroups: none if last frame's maps will do; null: they will not
     };
 
     /// Draws the maps of batch `batch` of a stage, as far as they are needed: elsewhere they are undefined.
@@ -79,7 +85,7 @@ class SampleMaps {
     gl::VertexArrayHandle vertices_, noVertices_;
     gl::Texture maps_;
     gl::Framebuffer framebuffer_;
-    gl::Buffer plan_, slots_, order_, samples_, cameras_;          // as the CPU or the device chose them
+    gl::Buffer plan_, slots_, order_, samples_, cameras_;  // as the CPU or the device chose them
     gl::Buffer layerCameras_, layerTaps_, layerMasks_, layerLists_, commands_;  // of the batch, by layer
     gl::Buffer cullBoxes_, casterConstants_;
     std::vector<CullBox> boxes_;

@@ -52,6 +52,11 @@ struct ReceiverTile {
 };
 const int mostTiles = 4096;
 
+// Groups to dispatch where maps are kept from the last frame; x: 0 unless receivers have moved.
+struct RedrawGroups {
+    uvec4 tiles, layers;
+};
+
 // What a map has to show: the depth along its axis of the farthest receiver in each cell, as orderedBits; 0:
 // there is none.
 const int maskSide = 32;
@@ -86,7 +91,8 @@ struct SamplingPlan {
 
 #ifdef __cplusplus
 static_assert(sizeof(LightSample) == 80 && sizeof(LayerTap) == 32 && sizeof(CullBox) == 144);
-static_assert(sizeof(ReceiverTile) == 32 && sizeof(LayerMask) == 16 + 4 * maskSide * maskSide);
+static_assert(sizeof(ReceiverTile) == 32 && sizeof(RedrawGroups) == 32 &&
+              sizeof(LayerMask) == 16 + 4 * maskSide * maskSide);
 static_assert(sizeof(DrawCommand) == 20 && sizeof(SamplingPlan) == 176 && sizeof(SampleCamera) == 192);
 }  // namespace penumbra
 #else
