@@ -59,7 +59,7 @@ bool hasToShow(int layer, int caster) {
 void main() {
     int caster = int(gl_WorkGroupID.x);
     int baseLayer = layerOf(firstSlot());
-    int layers = isKept && redraw.layers.x == 0u ? 0 : slotCount() * faces;
+    int layers = isKept && redraw.slots.x == 0u ? 0 : slotCount() * faces;
     bool isClear = caster == casterCount;
     int indices = isClear ? 6 : int(boxes[caster].draw.x);
     if (gl_LocalInvocationIndex == 0u) listed = 0;

@@ -128,8 +128,8 @@ TEST_F(LightSamplingTest, FullSubdivisionIsUniformSampling) {
     Settings everySample = full;
     everySample.push_back({"evaluation", "accumulation"});
     for (const Scene& scene :
-         {makeBuiltin("disk-and-sphere"), makeBuiltin("cylinder"), boxesUnder(LightShape::rect),
-          boxesUnder(LightShape::sphere), boxesUnder(LightShape::distant)}) {
+         {makeBuiltin("disk-and-sphere"), makeBuiltin("cylinder"), makeBuiltin("primitives"),
+          boxesUnder(LightShape::rect), boxesUnder(LightShape::sphere), boxesUnder(LightShape::distant)}) {
         const LightResult uniform = render("uniform", scene, size, small());
         const LightResult adaptive = render("adaptive", scene, size, everySample);
         ASSERT_EQ(count(adaptive, "samples"), 289) << scene.name;

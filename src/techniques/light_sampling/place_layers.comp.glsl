@@ -3,7 +3,7 @@
 // Puts the batch's cameras in the order of its layers, and finds what each layer's map has to show: for each cell of the
 // map the depth of the farthest receiver that will be looked up there. Casters elsewhere, or behind it, shadow nothing
 // (J. Bittner, O. Mattausch, A. Silvennoinen, M. Wimmer, Shadow caster culling for efficient shadow mapping, 2011: a
-// receiver mask, with depth). A group a layer.
+// receiver mask, with depth). A group a slot.
 layout(local_size_x = 256) in;
 
 #define PLAN_BLOCK 0
@@ -119,14 +119,8 @@ void addTile(ReceiverTile tile, SampleCamera camera, bool isOrthographic) {
     atomicMax(rim[3], last.y);
 }
 
-void main() {
+void placeLayer(int layer, int vertex, SampleCamera camera) {
     int index = int(gl_LocalInvocationIndex);
-    int first = firstSlot();
-    if (int(gl_WorkGroupID.x) >= slotCount() * faces) return;
-    int slot = first + int(gl_WorkGroupID.x) / faces;
-    int layer = layerOf(first) + int(gl_WorkGroupID.x);
-    int vertex = sampleOfSlot[slot];
-    SampleCamera camera = cameras[vertex * faces + int(gl_WorkGroupID.x) % faces];
     bool isOrthographic = camera.camera.depth.z == 1.0;
     bool showsAll = tileCount < 0;
     for (int i = index; i < maskSide * maskSide; i += 256) farthest[i] = showsAll ? orderedBits(beyond) : 0u;
@@ -170,4 +164,14 @@ void main() {
     ivec4 cells = ivec4(rim[0], rim[1], rim[2], rim[3]);
     if (cells.z >= 0) cells = clamp(cells + ivec4(-around, around), 0, maskSide - 1);
     masks[layer].cells = cells;
+}
+
+void main() {
+    if (int(gl_WorkGroupID.x) >= slotCount()) return;
+    int slot = firstSlot() + int(gl_WorkGroupID.x);
+    int vertex = sampleOfSlot[slot];
+    for (int face = 0; face < faces; ++face) {
+        placeLayer(layerOf(slot) + face, vertex, cameras[vertex * faces + face]);
+        barrier();
+    }
 }

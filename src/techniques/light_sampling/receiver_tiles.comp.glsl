@@ -35,7 +35,7 @@ bool isAllAboveHorizon(Receiver receiver) {
 }
 #else
 layout(std430, binding = 6) buffer RedrawBlock { RedrawGroups redraw; };
-layout(location = 17) uniform int layers;
+layout(location = 17) uniform int slots;
 #endif
 
 layout(location = 16) uniform int tile_px;
@@ -103,7 +103,7 @@ void main() {
 #ifndef BITS
     if (tiles[index].low != tile.low || tiles[index].high != tile.high) {
         redraw.tiles.x = gl_NumWorkGroups.x;
-        redraw.layers.x = uint(layers);
+        redraw.slots.x = uint(slots);
     }
 #endif
     tiles[index] = tile;

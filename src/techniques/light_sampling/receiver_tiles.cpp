@@ -45,7 +45,7 @@ void ReceiverTiles::findAll(const ShadowInputs& inputs, const SampleCameras& cam
     redraw_.write(std::as_bytes(std::span(&none, 1)));
     lookup_.use(inputs.light, cameras, {}, {});
     bind(all_, maps);
-    glUniform1i(17, maps.layers());
+    glUniform1i(17, maps.capacity());
     glDispatchCompute(GLuint(across_), GLuint(down_), 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }

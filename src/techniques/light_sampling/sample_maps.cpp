@@ -133,7 +133,7 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
 void SampleMaps::planAll() {
     SamplingPlan plan{};
     const int count = int(identity_.size());
-    plan.stages[stageOfAll] = {0, count, 0, 0};
+    plan.stages[stageOfAll] = {0, count, 1, 1};
     plan.evaluated.x = count;
     plan_.write(std::as_bytes(std::span(&plan, 1)));
     slots_.write(std::as_bytes(std::span(identity_)));
@@ -171,9 +171,10 @@ void SampleMaps::placeLayers(int stage, int batch, const SampleCameras& cameras,
     const gl::Buffer& tiles = needs.tiles != nullptr ? *needs.tiles : plan_;
     bindInOrder({&plan_, &slots_, &cameras_, &samples_, &tiles, &layerTaps_, &layerCameras_, &layerMasks_});
     if (needs.redraw != nullptr) {
-        dispatchIndirect(*needs.redraw, offsetof(RedrawGroups, layers));
+        dispatchIndirect(*needs.redraw, offsetof(RedrawGroups, slots));
     } else {
-        glDispatchCompute(GLuint(layers()), 1, 1);
+        constexpr std::size_t countInStage = sizeof(int);
+        dispatchIndirect(plan_, std::size_t(stage) * sizeof(glm::ivec4) + countInStage);
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
@@ -182,7 +183,7 @@ void SampleMaps::listLayers(int stage, int batch, const Needs& needs) {
     gather_.use();
     setBatch(stage, batch);
     glUniform1i(5, int(casters_.size()));
-    glUniform1i(6, layers());
+    glUniform1i(6, capacity_ * faces_);
     glUniform1i(7, needs.redraw != nullptr);
     const gl::Buffer& redraw = needs.redraw != nullptr ? *needs.redraw : plan_;
     bindInOrder({&plan_, &layerCameras_, &layerMasks_, &cullBoxes_, &layerLists_, &commands_, &redraw});
@@ -194,7 +195,7 @@ void SampleMaps::draw(int stage, int batch, const SampleCameras& cameras, const 
     if (faces_ == 0) return;
     placeLayers(stage, batch, cameras, needs);
     listLayers(stage, batch, needs);
-    const auto layers = std::size_t(this->layers());
+    const auto layers = std::size_t(capacity_ * faces_);
     bindInOrder({&layerCameras_, &casterConstants_, &layerLists_, &layerMasks_});
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
     // In one go where the vertex shader chooses the layer, else layer by layer.
@@ -229,7 +230,7 @@ void SampleMaps::drawCaster(std::size_t caster, std::size_t command) const {
     gl::attachFloats(vertices_.name(), 1, mesh.uvBuffer(), 2);
     glVertexArrayElementBuffer(vertices_.name(), mesh.indexBuffer());
     if (mask.texture != 0) glBindTextureUnit(0, mask.texture);
-    const auto layers = std::size_t(this->layers());
+    const auto layers = std::size_t(capacity_ * faces_);
     glUniform1i(0, int(caster));
     glUniform1i(1, int(device_.layerFromVertexShader ? caster * layers : command));
     glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, commandAt(command));

@@ -41,8 +41,6 @@ class SampleMaps {
     bool isResident() const { return resident_; }
     /// Slots in a batch.
     int capacity() const { return capacity_; }
-    /// The most maps that a batch can hold.
-    int layers() const { return capacity_ * faces_; }
     int batches(int mostSlots) const { return (mostSlots + capacity_ - 1) / capacity_; }
 
     /// The same casters again, wherever the host keeps them now.

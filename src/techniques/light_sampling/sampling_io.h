@@ -54,7 +54,7 @@ const int mostTiles = 4096;
 
 // Groups to dispatch where maps are kept from the last frame; x: 0 unless receivers have moved.
 struct RedrawGroups {
-    uvec4 tiles, layers;
+    uvec4 tiles, slots;
 };
 
 // What a map has to show: the depth along its axis of the farthest receiver in each cell, as orderedBits; 0:
@@ -83,7 +83,7 @@ const int stageOfDeepest = 6;  // what is not
 const int stageOfAll = 7;
 
 struct SamplingPlan {
-    ivec4 stages[maxStages];  // x: first slot; y: number of slots
+    ivec4 stages[maxStages];  // x: first slot; y: number of slots; yzw: as many groups, to dispatch
     uvec4 compareGroups;      // to dispatch for the slots of the next round: none where it has none
     uvec4 examineGroups;
     ivec4 evaluated;  // x: samples to evaluate, in the order of `Order`
