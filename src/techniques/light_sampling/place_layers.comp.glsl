@@ -8,6 +8,7 @@ layout(local_size_x = 256) in;
 
 #define PLAN_BLOCK 0
 #include "src/techniques/light_sampling/batch.glsl"
+#include "src/techniques/light_sampling/subdivision_io.h"
 
 layout(std430, binding = 1) readonly buffer Slots { int sampleOfSlot[]; };
 layout(std430, binding = 2) readonly buffer Cameras { SampleCamera cameras[]; };
@@ -34,7 +35,7 @@ const float beyond = 3e38;  // of every receiver
 
 // Quads of level 3 that have the vertex on their rim or within, as ReceiverTile has them; all for a coarse one.
 uvec2 quadsOf(int vertex) {
-    ivec2 place = ivec2(vertex % 17, vertex / 17);
+    ivec2 place = ivec2(vertex % latticeSide, vertex / latticeSide);
     if (!asksByQuads || all(equal(place % 2, ivec2(0)))) return uvec2(0u);
     ivec2 low = max((place - 1) / 2, ivec2(0)), high = min(place / 2, ivec2(7));
     uvec2 quads = uvec2(0u);
@@ -148,7 +149,9 @@ void placeLayer(int layer, int vertex, SampleCamera camera) {
     for (int i = index; i < maskSide * maskSide; i += 256) {
         int x = i % maskSide;
         uint depth = 0u;
-        for (int j = max(x - around.x, 0); j <= min(x + around.x, maskSide - 1); ++j) depth = max(depth, farthest[i - x + j]);
+        for (int j = max(x - around.x, 0); j <= min(x + around.x, maskSide - 1); ++j) {
+            depth = max(depth, farthest[i - x + j]);
+        }
         alongRows[i] = depth;
     }
     barrier();
