@@ -123,7 +123,9 @@ void AdaptiveLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer&
     const bool isKnown = appendInputs(key_, inputs);
     appendBytes(key_, options_);
     appendBytes(key_, comparisonScale_);
-    appendBytes(key_, smooths_);  // an error target's tree depends on it
+    appendBytes(key_, smooths_);                 // an error target's tree depends on it
+    appendBytes(key_, evaluationOptions_.path);  // and with these, what is looked up
+    appendBytes(key_, evaluationOptions_.filter);
     appendBytes(key_, mapSize_px_);
     wasStatic_ = reuses_ && isKnown && key_ == lastKey_ && maps_.isResident();
     lastKey_.clear();  // until the frame is complete
