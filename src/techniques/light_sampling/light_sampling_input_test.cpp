@@ -84,11 +84,6 @@ TEST_F(LightSamplingTest, StaticFramesReuseTheirMapsAndMovingOnesDoNot) {
     EXPECT_EQ(moved.visibility.values, fresh.visibility.values);
     const LightResult again = render(*technique, scene, size, 0.5);
     EXPECT_EQ(again.visibility.values, fresh.visibility.values);
-    // Each sample of each pixel is asked now: more than the maps that are there show.
-    setParameter(*technique, "evaluation", "accumulation");
-    const LightResult otherwise = render(*technique, scene, size, 0.5);
-    EXPECT_EQ(otherwise.visibility.values,
-              render("adaptive", scene, size, with({{"evaluation", "accumulation"}}), 0.5).visibility.values);
 }
 
 TEST_F(LightSamplingTest, TreesGrowAndShrinkToThoseOfAFreshStart) {
