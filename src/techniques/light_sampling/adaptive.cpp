@@ -48,6 +48,7 @@ constexpr int cellsPerSide = 34;  // see lattice_weights.comp.glsl
 
 AdaptiveLightSampling::AdaptiveLightSampling(Device& device)
     : maps_(device),
+      receivers_(device),
       subdivision_(device),
       evaluation_(device),
       radiance_(device),
@@ -122,7 +123,9 @@ void AdaptiveLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer&
     const bool isKnown = appendInputs(key_, inputs);
     appendBytes(key_, options_);
     appendBytes(key_, comparisonScale_);
-    appendBytes(key_, smooths_);  // an error target's tree depends on it
+    appendBytes(key_, smooths_);                 // an error target's tree depends on it
+    appendBytes(key_, evaluationOptions_.path);  // and with these, what is looked up
+    appendBytes(key_, evaluationOptions_.filter);
     appendBytes(key_, mapSize_px_);
     wasStatic_ = reuses_ && isKnown && key_ == lastKey_ && maps_.isResident();
     lastKey_.clear();  // until the frame is complete
@@ -136,6 +139,7 @@ void AdaptiveLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer&
         maps_.prepare(inputs.casters, scene, samples_, cameras_, mapSize_px,
                       isCenterAlone_ ? 1 : options_.mostSlotsInAll());
     }
+    maps_.keep(inputs.casters);
     if (isCenterAlone_ || cameras_.faces == 0) {
         renderCenterAlone(frame);
     } else {
@@ -156,7 +160,26 @@ void AdaptiveLightSampling::renderCenterAlone(const Frame& frame) {
         constexpr std::array whole = {glm::vec4(0, 0, 1, 1)};
         radiance_.weigh(frame.inputs.light.radianceTexture, whole, maps_.samples());
     }
-    evaluateStage(frame, stageOfAll, 1, !wasStatic_);
+    if (!wasStatic_) {
+        const auto pass = timers_.pass(lastMapsPass);
+        maps_.draw(stageOfAll, 0, cameras_, {});
+    }
+    evaluateBatch(frame, stageOfAll, 0, 1);
+}
+
+void AdaptiveLightSampling::findReceivers(const Frame& frame) {
+    const auto pass = timers_.pass("adaptive/receivers");
+    view_.bind(frame.inputs.view, frame.lightFromWorld);
+    receivers_.findAll(frame.inputs, cameras_, maps_, frame.out);
+}
+
+SampleMaps::Needs AdaptiveLightSampling::needs(int depth) const {
+    // What a sample stands for reaches half a quad's side to each side of it at most, and a quarter more
+    // where that is turned into a square around its middle (Cell, in lattice_weights.comp.glsl).
+    return {.tiles = &receivers_.all(),
+            .tileCount = receivers_.count(),
+            .reach = taps() > 0 ? 0.75f * float(16 >> depth) / latticeSide : 0,
+            .redraw = wasStatic_ ? &receivers_.redraw() : nullptr};
 }
 
 void AdaptiveLightSampling::subdivide(const Frame& frame) {
@@ -170,9 +193,13 @@ void AdaptiveLightSampling::subdivide(const Frame& frame) {
     treeOptions_.cellError = taps() > 0 ? errorOfSmoothedCell : errorOfUnknownCell;
     if (frame.inputs.light.shape == LightShape::sphere)
         treeOptions_.minDepth = std::max(2, options_.minDepth);
+    findReceivers(frame);
     if (wasStatic_) {
-        // Nothing changes, but the maps are asked again, in case the host's depth has.
-        if (usesBits()) compare(frame, stageOfCoarse, 0, 0);
+        // Nothing changes, but the maps are asked again, in case the host's depth has, and drawn again if so.
+        if (usesBits()) {
+            drawMaps(stageOfCoarse, 0, mapPasses[0], needs(treeOptions_.baseDepth()));
+            compare(frame, stageOfCoarse, 0, 0);
+        }
         return;
     }
     // Slots that are in no order of the tree's would change the order of sums where no bits hold the values.
@@ -181,10 +208,7 @@ void AdaptiveLightSampling::subdivide(const Frame& frame) {
     subdivision_.start(maps_, treeOptions_, isCoherent);
     for (int round = 0; round < treeOptions_.rounds(); ++round) {
         for (int batch = 0; batch < maps_.batches(treeOptions_.mostSlots(round)); ++batch) {
-            {
-                const auto pass = timers_.pass(mapPasses[std::size_t(round)]);
-                maps_.draw(round, batch);
-            }
+            drawMaps(round, batch, mapPasses[std::size_t(round)], needs(treeOptions_.baseDepth()));
             compare(frame, round, batch, round);
         }
         const auto pass = timers_.pass(decisionPasses[std::size_t(round)]);
@@ -209,43 +233,51 @@ void AdaptiveLightSampling::weigh(const Frame& frame) {
     subdivision_.weigh(maps_, weights_ == 1, texture != 0 ? &cellShares_ : nullptr);
 }
 
-void AdaptiveLightSampling::evaluate(const Frame& frame) {
-    const int deepestSlots = treeOptions_.mostSlots(treeOptions_.rounds());
-    if (usesBits()) {
-        evaluateStage(frame, stageOfDeepest, deepestSlots, !wasStatic_);
-        return;
-    }
-    if (maps_.isResident()) {
-        if (!wasStatic_) {
-            const auto pass = timers_.pass(lastMapsPass);
-            maps_.draw(stageOfDeepest, 0);
-        }
-        evaluateStage(frame, stageOfAll, options_.maxSamples, false);
-        return;
-    }
-    evaluateStage(frame, stageOfAll, options_.maxSamples, true);
+void AdaptiveLightSampling::drawMaps(int stage, int batch, const char* passName,
+                                     const SampleMaps::Needs& needs) {
+    const auto pass = timers_.pass(passName);
+    maps_.draw(stage, batch, cameras_, needs);
 }
 
-void AdaptiveLightSampling::evaluateStage(const Frame& frame, int stage, int mostSlots, bool draws) {
-    const int batches = maps_.batches(mostSlots);
-    for (int batch = 0; batch < batches; ++batch) {
-        if (draws) {
-            const auto pass = timers_.pass(lastMapsPass);
-            maps_.draw(stage, batch);
+void AdaptiveLightSampling::evaluate(const Frame& frame) {
+    SampleMaps::Needs ofDeepest = needs(treeOptions_.maxDepth);
+    if (usesBits()) {
+        {
+            const auto pass = timers_.pass("adaptive/unsettled receivers");
+            view_.bind(frame.inputs.view, frame.lightFromWorld);
+            subdivision_.bind(4, 5);
+            receivers_.findUnsettled(frame.inputs, cameras_, maps_, frame.out, wasStatic_);
         }
-        const auto pass = timers_.pass("adaptive/evaluation");
-        view_.bind(frame.inputs.view, frame.lightFromWorld);
-        if (stage == stageOfDeepest) subdivision_.bind(4, 5);
-        evaluation_.add(frame.inputs, cameras_, evaluationOptions_, maps_,
-                        {.stage = stage,
-                         .batch = batch,
-                         .mostSlots = std::min(maps_.capacity(), mostSlots),
-                         .starts = batch == 0,
-                         .ends = batch == batches - 1,
-                         .usesBits = stage == stageOfDeepest,
-                         .taps = stage == stageOfDeepest ? taps() : 0},
-                        frame.out);
+        ofDeepest.tiles = &receivers_.unsettled();
+        ofDeepest.asksByQuads = true;
+        const int mostSlots = treeOptions_.mostSlots(treeOptions_.rounds());
+        for (int batch = 0; batch < maps_.batches(mostSlots); ++batch) {
+            drawMaps(stageOfDeepest, batch, lastMapsPass, ofDeepest);
+            evaluateBatch(frame, stageOfDeepest, batch, mostSlots);
+        }
+        return;
     }
+    const bool isResident = maps_.isResident();
+    if (isResident) drawMaps(wasStatic_ ? stageOfAll : stageOfDeepest, 0, lastMapsPass, ofDeepest);
+    for (int batch = 0; batch < maps_.batches(options_.maxSamples); ++batch) {
+        if (!isResident) drawMaps(stageOfAll, batch, lastMapsPass, ofDeepest);
+        evaluateBatch(frame, stageOfAll, batch, options_.maxSamples);
+    }
+}
+
+void AdaptiveLightSampling::evaluateBatch(const Frame& frame, int stage, int batch, int mostSlots) {
+    const auto pass = timers_.pass("adaptive/evaluation");
+    view_.bind(frame.inputs.view, frame.lightFromWorld);
+    if (stage == stageOfDeepest) subdivision_.bind(4, 5);
+    evaluation_.add(frame.inputs, cameras_, evaluationOptions_, maps_,
+                    {.stage = stage,
+                     .batch = batch,
+                     .mostSlots = std::min(maps_.capacity(), mostSlots),
+                     .starts = batch == 0,
+                     .ends = batch == maps_.batches(mostSlots) - 1,
+                     .usesBits = stage == stageOfDeepest,
+                     .taps = stage == stageOfDeepest ? taps() : 0},
+                    frame.out);
 }
 
 void AdaptiveLightSampling::inspect(InspectionVisitor& visitor) const {

@@ -11,6 +11,7 @@
 #include "penumbra/technique.h"
 #include "src/gl/pass_timers.h"
 #include "src/techniques/light_sampling/evaluation.h"
+#include "src/techniques/light_sampling/receiver_tiles.h"
 #include "src/techniques/light_sampling/subdivision.h"
 
 namespace penumbra {
@@ -37,10 +38,14 @@ class AdaptiveLightSampling final : public Technique {
     void chooseSamples(const LightSurface& surface);
     void renderCenterAlone(const Frame& frame);
     void subdivide(const Frame& frame);
+    /// Of maps whose samples stand for quads of a level or deeper ones.
+    SampleMaps::Needs needs(int depth) const;
+    void drawMaps(int stage, int batch, const char* passName, const SampleMaps::Needs& needs);
+    void findReceivers(const Frame& frame);
     void compare(const Frame& frame, int stage, int batch, int round);
     void weigh(const Frame& frame);
     void evaluate(const Frame& frame);
-    void evaluateStage(const Frame& frame, int stage, int mostSlots, bool draws);
+    void evaluateBatch(const Frame& frame, int stage, int batch, int mostSlots);
 
     SubdivisionOptions options_;
     SubdivisionOptions treeOptions_;  // what of them holds for the light at hand
@@ -55,6 +60,7 @@ class AdaptiveLightSampling final : public Technique {
     std::vector<LightSample> samples_;
     SampleCameras cameras_;
     SampleMaps maps_;
+    ReceiverTiles receivers_;
     SubdivisionPasses subdivision_;
     SampleEvaluation evaluation_;
     RadianceWeights radiance_;

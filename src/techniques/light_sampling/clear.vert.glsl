@@ -3,13 +3,22 @@
 #ifndef LAYER_BY_LAYER
 #extension GL_ARB_shader_viewport_layer_array : require
 #endif
-// A triangle over the whole of each map of a batch, infinitely far away.
-#define PLAN_BLOCK 3
-#include "src/techniques/light_sampling/batch.glsl"
+// Two triangles over the cells that a map has to show, infinitely far away.
+#include "src/techniques/light_sampling/sampling_io.h"
+
+layout(std430, binding = 2) readonly buffer LayerLists { int layerLists[]; };
+layout(std430, binding = 3) readonly buffer Masks { LayerMask masks[]; };
+
+layout(location = 1) uniform int firstInLayerLists;
 
 void main() {
-    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
+    int layer = layerLists[firstInLayerLists + gl_InstanceID];
+    ivec4 cells = masks[layer].cells;
+    const ivec2 corners[6] = ivec2[6](ivec2(0, 0), ivec2(1, 0), ivec2(1, 1), ivec2(0, 0), ivec2(1, 1), ivec2(0, 1));
+    ivec2 corner = corners[gl_VertexID];
+    vec2 place = vec2(corner.x == 0 ? cells.x : cells.z + 1, corner.y == 0 ? cells.y : cells.w + 1);
+    gl_Position = vec4(2.0 * place / float(maskSide) - 1.0, 0.0, 1.0);
 #ifndef LAYER_BY_LAYER
-    gl_Layer = layerOf(firstSlot()) + gl_InstanceID;
+    gl_Layer = layer;
 #endif
 }

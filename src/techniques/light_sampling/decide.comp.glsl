@@ -79,11 +79,11 @@ void startTree() {
         before = side * side;
     }
     subdivision.coarseVertices = coarse;
-    for (int y = 0; y < 8; ++y) subdivision.deepestRows[y] = 0u;
+    for (int y = 0; y < 8; ++y) subdivision.deepestRows[y] = baseDepth == deepestLevel ? 255u : 0u;
     subdivision.decidedLevels = baseDepth;
     subdivision.reachedMaximum = subdivision.errorBound = 0u;
-    for (int i = 0; i < maxStages; ++i) plan.stages[i] = ivec4(slots, 0, 0, 0);
-    plan.stages[stageOfAll] = plan.stages[compares ? 0 : stageOfDeepest] = ivec4(0, slots, 0, 0);
+    for (int i = 0; i < maxStages; ++i) plan.stages[i] = ivec4(slots, 0, 1, 1);
+    plan.stages[stageOfAll] = plan.stages[compares ? 0 : stageOfDeepest] = ivec4(0, slots, 1, 1);
     if (compares) plan.stages[stageOfCoarse] = plan.stages[0];
     setGroups(true);
 }
@@ -164,8 +164,8 @@ void main() {
         for (int i = quadIndex(decided, ivec2(0)); i < splittableQuads; ++i) subdivision.failing[i] = 0u;
         // What the last split brings is not compared.
         bool isDeepest = decided == maxDepth;
-        plan.stages[isDeepest ? stageOfDeepest : round + 1] = ivec4(first, slots - first, 0, 0);
-        plan.stages[stageOfAll] = ivec4(0, slots, 0, 0);
+        plan.stages[isDeepest ? stageOfDeepest : round + 1] = ivec4(first, slots - first, 1, 1);
+        plan.stages[stageOfAll] = ivec4(0, slots, 1, 1);
         if (!isDeepest) plan.stages[stageOfCoarse] = plan.stages[stageOfAll];
         setGroups(!isDeepest);
         if (decided < maxDepth || maxDepth == deepestLevel) subdivision.errorBound = 0u;  // told anew of the finer tree

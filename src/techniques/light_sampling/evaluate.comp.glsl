@@ -8,20 +8,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/common/view.glsl"
 #include "src/techniques/light_sampling/sample_test.glsl"
-
-#ifdef COLORED
-#define VALUE vec3
-#define WEIGHT(light) light.weight.rgb
-#define FORMAT rgba32f
-#define FROM(texel) texel.rgb
-#define TO(value) vec4(value, 1.0)
-#else
-#define VALUE float
-#define WEIGHT(light) light.weight.a
-#define FORMAT r32f
-#define FROM(texel) texel.r
-#define TO(value) vec4(value)
-#endif
+#include "src/techniques/light_sampling/value.glsl"
 
 layout(binding = 0) uniform writeonly image2D visibility;
 layout(binding = 1, FORMAT) uniform image2D seenSoFar;

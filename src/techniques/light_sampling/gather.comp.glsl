@@ -1,86 +1,87 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
-// Puts the batch's cameras in the order of its layers (the last group), and lists for each caster (a group each) the
-// layers whose camera might see it. Variant LAYER_BY_LAYER: a command a caster and layer instead of one a caster.
+// Lists for each caster (a group each) the layers of the batch whose maps have to show it, and (the last group) the
+// layers that have to show anything. Variant LAYER_BY_LAYER: a command a caster and layer instead of one a caster.
 layout(local_size_x = 64) in;
 
 #define PLAN_BLOCK 0
 #include "src/techniques/light_sampling/batch.glsl"
 
-layout(std430, binding = 1) readonly buffer Slots { int sampleOfSlot[]; };
-layout(std430, binding = 2) readonly buffer Cameras { SampleCamera cameras[]; };
-layout(std430, binding = 3) writeonly buffer LayerTaps { LayerTap layerTaps[]; };
-layout(std430, binding = 4) writeonly buffer LayerCameras { LightCameraConstants layerCameras[]; };
-layout(std430, binding = 5) readonly buffer Boxes { CullBox boxes[]; };
-layout(std430, binding = 6) writeonly buffer LayerLists { int layerLists[]; };
-layout(std430, binding = 7) writeonly buffer Commands { DrawCommand commands[]; };
+layout(std430, binding = 1) readonly buffer LayerCameras { LightCameraConstants layerCameras[]; };
+layout(std430, binding = 2) readonly buffer Masks { LayerMask masks[]; };
+layout(std430, binding = 3) readonly buffer Boxes { CullBox boxes[]; };
+layout(std430, binding = 4) writeonly buffer LayerLists { int layerLists[]; };
+layout(std430, binding = 5) writeonly buffer Commands { DrawCommand commands[]; };
+layout(std430, binding = 6) readonly buffer RedrawBlock { RedrawGroups redraw; };
 
 layout(location = 5) uniform int casterCount;
 layout(location = 6) uniform int layersInAll;
+layout(location = 7) uniform bool isKept;  // maps of the last frame are, unless receivers have moved
 
 shared int listed;
 
-bool mightSee(mat4 clipFromLight, int caster) {
+bool hasToShow(int layer, int caster) {
+    mat4 clipFromLight = layerCameras[layer].clipFromLight, faceFromLight = layerCameras[layer].faceFromLight;
     // Outside one plane with all corners; depth has no far plane. A little slack covers rounding.
     bvec4 outside = bvec4(true);
-    bool isBehind = true;
+    bool isBehind = true, isBefore = true;
+    vec2 low = vec2(1e30), high = vec2(-1e30);
+    float nearest = 3e38;
     for (int i = 0; i < 8; ++i) {
         vec4 p = clipFromLight * boxes[caster].corners[i];
         float edge = p.w + 1e-4 * abs(p.w);
         outside = bvec4(outside.x && p.x < -edge, outside.y && p.x > edge, outside.z && p.y < -edge,
                         outside.w && p.y > edge);
         isBehind = isBehind && p.z > edge;
+        isBefore = isBefore && p.w > 0.0;
+        low = min(low, p.xy / p.w);
+        high = max(high, p.xy / p.w);
+        float depth = (faceFromLight * boxes[caster].corners[i]).z;
+        nearest = min(nearest, depth - 1e-4 * abs(depth));
     }
-    return !any(outside) && !isBehind;
+    if (any(outside) || isBehind) return false;
+    if (!isBefore) {
+        low = vec2(-1.0);
+        high = vec2(1.0);
+    }
+    ivec4 cells = masks[layer].cells;
+    ivec2 first = max(ivec2(floor((clamp(low - 1e-4, -1.0, 1.0) * 0.5 + 0.5) * float(maskSide))), cells.xy);
+    ivec2 last = min(ivec2(floor((clamp(high + 1e-4, -1.0, 1.0) * 0.5 + 0.5) * float(maskSide))), cells.zw);
+    uint depth = orderedBits(nearest);
+    for (int y = first.y; y <= last.y; ++y) {
+        for (int x = first.x; x <= last.x; ++x) {
+            if (masks[layer].farthest[y * maskSide + x] >= depth) return true;
+        }
+    }
+    return false;
 }
 
 void main() {
     int caster = int(gl_WorkGroupID.x);
-    int first = firstSlot();
-    int layers = slotCount() * faces;
-    int baseLayer = layerOf(first);
+    int baseLayer = layerOf(firstSlot());
+    int layers = isKept && redraw.slots.x == 0u ? 0 : slotCount() * faces;
+    bool isClear = caster == casterCount;
+    int indices = isClear ? 6 : int(boxes[caster].draw.x);
     if (gl_LocalInvocationIndex == 0u) listed = 0;
     barrier();
 
 #ifdef LAYER_BY_LAYER
-    int candidates = layersInAll;
-#else
-    int candidates = layers;
-#endif
-    for (int i = int(gl_LocalInvocationIndex); i < candidates; i += 64) {
-#ifdef LAYER_BY_LAYER
-        int layer = i;
+    for (int layer = int(gl_LocalInvocationIndex); layer < layersInAll; layer += 64) {
         bool isUsed = layer >= baseLayer && layer < baseLayer + layers;
 #else
-        int layer = baseLayer + i;
+    for (int layer = baseLayer + int(gl_LocalInvocationIndex); layer < baseLayer + layers; layer += 64) {
         const bool isUsed = true;
 #endif
-        int slot = first + (layer - baseLayer) / faces;
-        int camera = isUsed ? sampleOfSlot[slot] * faces + (layer - baseLayer) % faces : 0;
-        if (caster == casterCount) {
-            if (isUsed) {
-                layerCameras[layer] = cameras[camera].camera;
-                layerTaps[layer] = cameras[camera].tap;
-            }
+        bool isShown = isUsed && indices != 0 && masks[layer].cells.z >= 0 && (isClear || hasToShow(layer, caster));
 #ifdef LAYER_BY_LAYER
-            commands[casterCount * layersInAll + layer] = DrawCommand(3, isUsed ? 1 : 0, 0, 0, 0);
-#endif
-        } else {
-            uint indices = boxes[caster].draw.x;
-            bool isSeen = isUsed && indices != 0u && mightSee(cameras[camera].camera.clipFromLight, caster);
-#ifdef LAYER_BY_LAYER
-            layerLists[caster * layersInAll + layer] = layer;
-            commands[caster * layersInAll + layer] = DrawCommand(int(indices), isSeen ? 1 : 0, 0, 0, 0);
+        layerLists[caster * layersInAll + layer] = layer;
+        commands[caster * layersInAll + layer] = DrawCommand(indices, isShown ? 1 : 0, 0, 0, 0);
 #else
-            if (isSeen) layerLists[caster * layersInAll + atomicAdd(listed, 1)] = layer;
+        if (isShown) layerLists[caster * layersInAll + atomicAdd(listed, 1)] = layer;
 #endif
-        }
     }
     barrier();
 #ifndef LAYER_BY_LAYER
-    if (gl_LocalInvocationIndex == 0u) {
-        commands[caster] = caster == casterCount ? DrawCommand(3, layers, 0, 0, 0)
-                                                 : DrawCommand(int(boxes[caster].draw.x), listed, 0, 0, 0);
-    }
+    if (gl_LocalInvocationIndex == 0u) commands[caster] = DrawCommand(indices, listed, 0, 0, 0);
 #endif
 }

@@ -25,7 +25,12 @@ bool appendInputs(std::vector<std::byte>& key, const ShadowInputs& inputs) {
         appendBytes(key, caster.worldFromMesh);
         appendBytes(key, caster.casts);
         appendBytes(key, caster.receives);
-        isKnown = isKnown && caster.alphaMask.texture == 0;
+        const AlphaMask& mask = caster.alphaMask;
+        appendBytes(key, mask.texture);
+        appendBytes(key, mask.revision);
+        appendBytes(key, mask.factor);
+        appendBytes(key, mask.cutoff);
+        isKnown = isKnown && (mask.texture == 0 || mask.revision != 0);
     }
     return isKnown;
 }

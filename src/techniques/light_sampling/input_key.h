@@ -16,7 +16,7 @@ void appendBytes(std::vector<std::byte>& key, const T& value) {
 }
 
 /// Appends everything that depth maps and receivers follow from, so that equal keys mean equal maps. False
-/// where they may change unseen: a mask's texture has no revision.
+/// where they may change unseen: a mask's texture without a revision.
 bool appendInputs(std::vector<std::byte>& key, const ShadowInputs& inputs);
 
 }  // namespace penumbra

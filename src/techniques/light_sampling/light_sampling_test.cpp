@@ -1,47 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
+#include "src/techniques/light_sampling/light_sampling_test.h"
 
 #include "src/device_internals.h"
-#include "studio/scene/builtin/builtin.h"
-#include "tests/support/technique_test.h"
 
 namespace penumbra::studio {
 namespace {
-
-/// Maps of 128 texels and few samples keep the tests short.
-class LightSamplingTest : public TechniqueTest {
-  protected:
-    static constexpr PictureSize size{120, 68};
-    static const Settings& small() {
-        static const Settings settings = {{"map_size", "128"}};
-        return settings;
-    }
-    static Settings with(Settings more) {
-        more.insert(more.begin(), small().begin(), small().end());
-        return more;
-    }
-    static double count(const LightResult& result, std::string_view name) {
-        const auto& counts = result.statistics.counts;
-        const auto found = std::ranges::find(counts, name, &Statistic::name);
-        return found == counts.end() ? -1 : found->value;
-    }
-    static double largestDifference(const LightResult& a, const LightResult& b) {
-        double largest = 0;
-        for (std::size_t i = 0; i < a.visibility.values.size(); ++i) {
-            largest = std::max(largest, std::abs(double(a.visibility.values[i]) - b.visibility.values[i]));
-        }
-        return largest;
-    }
-};
-
-double rmsDifference(const LightResult& a, const LightResult& b) {
-    double squares = 0;
-    for (std::size_t i = 0; i < a.visibility.values.size(); ++i) {
-        squares += std::pow(double(a.visibility.values[i]) - b.visibility.values[i], 2);
-    }
-    return std::sqrt(squares / double(a.visibility.values.size()));
-}
 
 /// Looking straight down on the half-plane scene, where V = clamp(1/2 + x): C1 of the closed forms.
 double rampRmse(const LightResult& result, PictureSize size) {
@@ -142,15 +105,6 @@ TEST_F(LightSamplingTest, LayersChosenByTheVertexShaderOrOneByOneAreTheSame) {
     EXPECT_EQ(whole.second.visibility.values, byLayer.second.visibility.values);
 }
 
-TEST_F(LightSamplingTest, SubdivisionStopsAtItsLimits) {
-    const Scene scene = makeBuiltin("cylinder");
-    EXPECT_EQ(count(render("adaptive", scene, size, with({{"max_samples", "1"}})), "samples"), 1);
-    EXPECT_EQ(count(render("adaptive", scene, size, with({{"max_depth", "0"}})), "samples"), 4);
-    const LightResult limited = render("adaptive", scene, size, with({{"max_samples", "20"}}));
-    EXPECT_LE(count(limited, "samples"), 20);
-    EXPECT_EQ(count(limited, "reached the maximum"), 1);
-}
-
 TEST_F(LightSamplingTest, ToleranceAndCoarseComparisonNeedFewerSamples) {
     const Scene scene = makeBuiltin("torus");
     constexpr PictureSize larger{400, 225};  // the wider a penumbra in pixels, the more samples it takes
@@ -162,31 +116,60 @@ TEST_F(LightSamplingTest, ToleranceAndCoarseComparisonNeedFewerSamples) {
 
 TEST_F(LightSamplingTest, FullSubdivisionIsUniformSampling) {
     // Where every quad is split the samples and weights are those of 17 x 17 cells; only the order of the
-    // sums differs. The path by accumulation looks up every sample.
-    const Scene scene = makeBuiltin("disk-and-sphere");
+    // sums differs, and that maps show no more than what is looked up, whatever the shape of the light.
+    const auto boxesUnder = [](LightShape shape) {
+        return withLight(makeBuiltin("two-boxes"), [=](Light& light) {
+            light.shape.shape = shape;
+            light.shape.radius_m = 0.4f;
+            light.shape.angle_rad = 0.2f;
+        });
+    };
     const Settings full = with({{"max_error", "1e-6"}, {"smooth", "false"}});
     Settings everySample = full;
     everySample.push_back({"evaluation", "accumulation"});
-    const LightResult uniform = render("uniform", scene, size, small());
-    const LightResult adaptive = render("adaptive", scene, size, everySample);
-    ASSERT_EQ(count(adaptive, "samples"), 289);
-    EXPECT_LE(largestDifference(adaptive, uniform), 1e-4);
-    // What is left out where coarse samples agree is one sample here and there.
-    const LightResult pruned = render("adaptive", scene, size, full);
-    EXPECT_LE(rmsDifference(pruned, uniform), 0.002);
+    for (const Scene& scene :
+         {makeBuiltin("disk-and-sphere"), makeBuiltin("cylinder"), makeBuiltin("primitives"),
+          boxesUnder(LightShape::rect), boxesUnder(LightShape::sphere), boxesUnder(LightShape::distant)}) {
+        const LightResult uniform = render("uniform", scene, size, small());
+        const LightResult adaptive = render("adaptive", scene, size, everySample);
+        ASSERT_EQ(count(adaptive, "samples"), 289) << scene.name;
+        EXPECT_LE(largestDifference(adaptive, uniform), 1e-4) << scene.name;
+        const LightResult atOnce = render("adaptive", scene, size, with({{"min_depth", "4"}}));
+        EXPECT_LE(largestDifference(atOnce, uniform), 1e-4) << scene.name;
+        // What is left out where coarse samples agree is one sample here and there, of 289.
+        EXPECT_LE(rmsDifference(render("adaptive", scene, size, full), uniform), 1.0 / 289) << scene.name;
+    }
 }
 
 TEST_F(LightSamplingTest, AdaptiveIsAsGoodAsUniformWithAllSamples) {
-    // The figure asked for, over all pixels of a picture that is large enough for the paper's test to see the
-    // penumbrae.
+    // The figure asked for, over all pixels of pictures that are large enough for the paper's test to see the
+    // penumbrae. The filter between samples comes nearer to the closed form than 17 columns of samples do, on
+    // `strip` by as much as that: there it is the samples alone that are compared. (Where all
+    // samples are taken by six maps each, or with a texture, the test above would say the same.)
     constexpr PictureSize larger{320, 180};
-    for (const char* name : {"torus", "overlapping-blockers"}) {
-        const Scene scene = makeBuiltin(name);
-        const Settings settings = {{"map_size", "256"}};
-        const LightResult adaptive = render("adaptive", scene, larger, settings);
-        EXPECT_LT(count(adaptive, "samples"), 289) << name;
-        EXPECT_LE(rmsDifference(adaptive, render("uniform", scene, larger, settings)), 0.01) << name;
+    for (const BuiltinInfo& info : builtinScenes()) {
+        if (info.name == std::string_view("cylinder") || info.name == std::string_view("textured-window")) {
+            continue;
+        }
+        const Scene scene = makeBuiltin(info.name);
+        const bool isStrip = info.name == std::string_view("strip");
+        const LightResult adaptive =
+            render("adaptive", scene, larger, {{"map_size", "256"}, {"smooth", isStrip ? "false" : "true"}});
+        EXPECT_LE(rmsDifference(adaptive, render("uniform", scene, larger, {{"map_size", "256"}})), 0.01)
+            << info.name;
     }
+}
+
+TEST_F(LightSamplingTest, ASurfaceEdgeOnToTheLightIsNotShadowedByWhatLiesBehindIt) {
+    // A side of the upper box sees a corner of the light over its horizon, edge-on: it is a tenth of a texel
+    // wide there, and its plane, continued to the middle of the texel, lies behind the box below. 0.5 % of
+    // all lit pixels are on that side.
+    const Scene scene = makeBuiltin("two-boxes");
+    constexpr PictureSize larger{320, 180};
+    const LightResult exact = truth(scene, larger, 64);
+    const LightResult result = render("uniform", scene, larger, {{"map_size", "512"}, {"samples", "8"}});
+    EXPECT_LE(judge(exact, result).false_shadow, 0.0005);
+    EXPECT_LE(judge(exact, result).leak, 0.0005);
 }
 
 TEST_F(LightSamplingTest, SmoothedBandsAreNearerToTheClosedForm) {
@@ -200,74 +183,6 @@ TEST_F(LightSamplingTest, SmoothedBandsAreNearerToTheClosedForm) {
     EXPECT_LE(rampRmse(render("adaptive", scene, size, coarse), size), 0.016);
 }
 
-TEST_F(LightSamplingTest, NothingToSeeNeedsNoMapsBeyondTheLeast) {
-    const Scene lit = withMoment(makeBuiltin("two-boxes"), [](SceneMoment& moment) {
-        for (Instance& instance : moment.instances) instance.casts = false;
-    });
-    EXPECT_EQ(count(render("adaptive", lit, size, with({{"min_depth", "0"}})), "samples"), 4);
-    EXPECT_EQ(count(render("adaptive", lit, size, small()), "samples"), 9);
-    const Scene nothing = withMoment(makeBuiltin("two-boxes"), [](SceneMoment& moment) {
-        for (Instance& instance : moment.instances) instance.receives = false;
-    });
-    EXPECT_EQ(count(render("adaptive", nothing, size, small()), "maps"), 0);
-}
-
-TEST_F(LightSamplingTest, StaticFramesReuseTheirMapsAndMovingOnesDoNot) {
-    const std::unique_ptr<Technique> technique = workbench().makeTechnique("adaptive");
-    setParameter(*technique, "map_size", "128");
-    const Scene scene = makeBuiltin("moving");
-    const LightResult first = render(*technique, scene, size, 0);
-    EXPECT_EQ(count(first, "reused"), 0);
-    // The workbench keeps its meshes only within one scene; here they are made anew and equal.
-    const LightResult moved = render(*technique, scene, size, 0.5);
-    EXPECT_EQ(count(moved, "reused"), 0);
-    const LightResult fresh = render("adaptive", scene, size, small(), 0.5);
-    EXPECT_EQ(moved.visibility.values, fresh.visibility.values);
-    const LightResult again = render(*technique, scene, size, 0.5);
-    EXPECT_EQ(again.visibility.values, fresh.visibility.values);
-}
-
-TEST_F(LightSamplingTest, TreesGrowAndShrinkToThoseOfAFreshStart) {
-    // A technique that has followed the scene and one that has just begun see the same, bit by bit.
-    const std::unique_ptr<Technique> technique = workbench().makeTechnique("adaptive");
-    setParameter(*technique, "map_size", "128");
-    const Scene scene = makeBuiltin("moving");
-    double fewest = 1e9, most = 0;
-    for (const double time_s : {0.0, 0.4, 2.0, 2.1, 3.0}) {
-        const LightResult followed = render(*technique, scene, size, time_s);
-        const LightResult fresh = render("adaptive", scene, size, small(), time_s);
-        EXPECT_EQ(count(followed, "samples"), count(fresh, "samples")) << time_s;
-        EXPECT_EQ(followed.visibility.values, fresh.visibility.values) << time_s;
-        fewest = std::min(fewest, count(fresh, "samples"));
-        most = std::max(most, count(fresh, "samples"));
-    }
-    EXPECT_LT(fewest, most);  // else nothing was tested
-
-    // With samples of the deepest level, too, which are found anew each time.
-    const std::unique_ptr<Technique> again = workbench().makeTechnique("adaptive");
-    setParameter(*again, "map_size", "128");
-    setParameter(*again, "reuse", "false");
-    constexpr PictureSize larger{320, 180};
-    const Scene still = makeBuiltin("primitives");
-    const LightResult first = render(*again, still, larger);
-    EXPECT_GT(count(first, "samples of level 4"), 0);
-    const LightResult second = render(*again, still, larger);
-    EXPECT_EQ(first.visibility.values, second.visibility.values);
-}
-
-TEST_F(LightSamplingTest, ALightBehindOrInsideGeometryLeavesItsShadow) {
-    const auto lightAt = [](float x, float y, float z) {
-        return withLight(makeBuiltin("two-boxes"), [=](Light& light) {
-            light.shape.worldFromLight.columns[3] = {x, y, z, 1};
-            light.shape.width_m = light.shape.height_m = 0.2f;
-        });
-    };
-    for (const Scene& scene : {lightAt(0, -1, 0), lightAt(0, 0.3f, 0)}) {
-        const LightResult exact = truth(scene, size, 64);
-        EXPECT_LE(shareOfDifferentPixels(exact, render("adaptive", scene, size, small()), 0.3f), 0.03);
-    }
-}
-
 TEST_F(LightSamplingTest, BoundOfTheErrorIsKeptAndHolds) {
     // Over the half-plane, where the truth is known and maps of 512 texels are finer than a pixel. Without
     // the filter no 17 columns can be as near as 0.01; the bound says so.
@@ -279,16 +194,6 @@ TEST_F(LightSamplingTest, BoundOfTheErrorIsKeptAndHolds) {
     const LightResult bare = render("adaptive", scene, size, {{"max_error", "0.01"}, {"smooth", "false"}});
     EXPECT_EQ(count(bare, "samples"), 289);
     EXPECT_GT(count(bare, "bound of the error"), rampRmse(bare, size));
-}
-
-TEST_F(LightSamplingTest, MapsLargerThanTheDeviceAllowsAreRefused) {
-    int& limit_px = workbench().device().internals().maxTextureSize_px;
-    const int before = limit_px;
-    limit_px = 512;
-    for (const char* name : {"uniform", "adaptive"}) {
-        EXPECT_THROW(render(name, makeBuiltin("two-boxes"), size, {{"map_size", "1024"}}), Error) << name;
-    }
-    limit_px = before;
 }
 
 }  // namespace

@@ -144,6 +144,16 @@ void SampleCameras::fit(const AreaLight& light, const LightSurface& surface,
     });
     receivers_.erase(std::unique(receivers_.begin(), receivers_.end()), receivers_.end());
     fitWindows(samples, mapSize_px);
+    nearestBlocker_m = near_m;
+    if (orthographic) return;
+    double nearest = infinity, foremost = -infinity;
+    const auto depth = [&](const glm::dvec3& p) { return (faceFromLight[0] * p).z; };
+    for (const BoxCorners& box : scene.boxes) {
+        if (std::isnan(box[0].x)) continue;
+        for (const glm::dvec3& p : box) nearest = std::min(nearest, depth(p));
+    }
+    for (const LightSample& sample : samples) foremost = std::max(foremost, depth(glm::dvec3(sample.place)));
+    nearestBlocker_m = std::max(0.0, nearest - foremost);
 }
 
 void SampleCameras::fitWindows(std::span<const LightSample> samples, int mapSize_px) {

@@ -17,7 +17,9 @@ struct SampleCameras {
     bool isCube = false;
     bool orthographic = false;
     std::array<glm::dmat3, 6> faceFromLight;
-    double near_m = 0, far_m = 0;       ///< as LightCamera has them, for all samples
+    double near_m = 0, far_m = 0;  ///< as LightCamera has them, for all samples
+    double nearestBlocker_m =
+        0;  ///< depth of the nearest caster as any sample sees it; not of a cube's faces
     std::vector<SampleCamera> cameras;  ///< `faces` a sample
 
     /// Fits them to everything that receives. Keeps its memory.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <string>
 
@@ -45,12 +46,24 @@ void bindStorage(GLuint binding, const gl::Buffer& buffer) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
 }
 
+void bindInOrder(std::initializer_list<const gl::Buffer*> buffers) {
+    GLuint binding = 0;
+    for (const gl::Buffer* buffer : buffers) bindStorage(binding++, *buffer);
+}
+
 }  // namespace
+
+void dispatchIndirect(const gl::Buffer& buffer, std::size_t offset_bytes) {
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer.name());
+    glDispatchComputeIndirect(GLintptr(offset_bytes));
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+}
 
 SampleMaps::SampleMaps(Device& device)
     : device_(device.internals()),
       opaque_(device_.shaders, {vertexShader}, variant(device_)),
       masked_(device_.shaders, {vertexShader, fragmentShader}, variant(device_, true)),
+      placeLayers_(device_.shaders, {"src/techniques/light_sampling/place_layers.comp.glsl"}),
       gather_(device_.shaders, {"src/techniques/light_sampling/gather.comp.glsl"}, variant(device_)),
       clear_(device_.shaders, {"src/techniques/light_sampling/clear.vert.glsl"}, variant(device_)),
       vertices_(gl::makeFloatVertexArray(3, 2)),
@@ -104,23 +117,23 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
     upload<SampleCamera>(cameras_, cameras.cameras, "cameras of light samples");
 
     const auto layers = std::size_t(capacity_ * facesInMemory);
-    const std::size_t casterLayers = layers * casters.size();
+    const std::size_t casterLayers = layers * (casters.size() + 1);  // one more list for clearing
     identity_.resize(samples.size());
     std::iota(identity_.begin(), identity_.end(), 0);
     grow(slots_, samples.size() * sizeof(int), "slots of light samples");
     grow(order_, samples.size() * sizeof(int), "order of light samples");
     grow(layerCameras_, layers * sizeof(LightCameraConstants), "light sampling layer cameras");
     grow(layerTaps_, layers * sizeof(LayerTap), "light sampling layer taps");
+    grow(layerMasks_, layers * sizeof(LayerMask), "light sampling layer masks");
     grow(layerLists_, casterLayers * sizeof(int), "light sampling layer lists");
-    grow(commands_,
-         (device_.layerFromVertexShader ? casters.size() + 1 : casterLayers + layers) * sizeof(DrawCommand),
+    grow(commands_, (device_.layerFromVertexShader ? casters.size() + 1 : casterLayers) * sizeof(DrawCommand),
          "light sampling draws");
 }
 
 void SampleMaps::planAll() {
     SamplingPlan plan{};
     const int count = int(identity_.size());
-    plan.stages[stageOfAll] = {0, count, 0, 0};
+    plan.stages[stageOfAll] = {0, count, 1, 1};
     plan.evaluated.x = count;
     plan_.write(std::as_bytes(std::span(&plan, 1)));
     slots_.write(std::as_bytes(std::span(identity_)));
@@ -144,23 +157,46 @@ void SampleMaps::bind() const {
     bindStorage(4, order_);
 }
 
-void SampleMaps::draw(int stage, int batch) {
-    if (faces_ == 0) return;
-    const auto layers = std::size_t(capacity_ * faces_);
+void SampleMaps::placeLayers(int stage, int batch, const SampleCameras& cameras, const Needs& needs) {
+    placeLayers_.use();
+    setBatch(stage, batch);
+    glUniform1i(5, needs.tiles != nullptr ? needs.tileCount : -1);
+    glUniform1i(6, cameras.isCube);
+    glUniform1f(7, needs.reach);
+    glUniform1f(8, float(cameras.nearestBlocker_m));
+    glUniform1i(9, mapSize_px_);
+    const glm::mat3 faceFromLight(cameras.faceFromLight[0]);
+    glUniformMatrix3fv(10, 1, GL_FALSE, &faceFromLight[0][0]);
+    glUniform1i(13, needs.asksByQuads);
+    const gl::Buffer& tiles = needs.tiles != nullptr ? *needs.tiles : plan_;
+    bindInOrder({&plan_, &slots_, &cameras_, &samples_, &tiles, &layerTaps_, &layerCameras_, &layerMasks_});
+    if (needs.redraw != nullptr) {
+        dispatchIndirect(*needs.redraw, offsetof(RedrawGroups, slots));
+    } else {
+        constexpr std::size_t countInStage = sizeof(int);
+        dispatchIndirect(plan_, std::size_t(stage) * sizeof(glm::ivec4) + countInStage);
+    }
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void SampleMaps::listLayers(int stage, int batch, const Needs& needs) {
     gather_.use();
     setBatch(stage, batch);
     glUniform1i(5, int(casters_.size()));
-    glUniform1i(6, int(layers));
-    const auto bindInOrder = [](std::initializer_list<const gl::Buffer*> buffers) {
-        GLuint binding = 0;
-        for (const gl::Buffer* buffer : buffers) bindStorage(binding++, *buffer);
-    };
-    bindInOrder(
-        {&plan_, &slots_, &cameras_, &layerTaps_, &layerCameras_, &cullBoxes_, &layerLists_, &commands_});
+    glUniform1i(6, capacity_ * faces_);
+    glUniform1i(7, needs.redraw != nullptr);
+    const gl::Buffer& redraw = needs.redraw != nullptr ? *needs.redraw : plan_;
+    bindInOrder({&plan_, &layerCameras_, &layerMasks_, &cullBoxes_, &layerLists_, &commands_, &redraw});
     glDispatchCompute(GLuint(casters_.size()) + 1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+}
 
-    bindInOrder({&layerCameras_, &casterConstants_, &layerLists_, &plan_});
+void SampleMaps::draw(int stage, int batch, const SampleCameras& cameras, const Needs& needs) {
+    if (faces_ == 0) return;
+    placeLayers(stage, batch, cameras, needs);
+    listLayers(stage, batch, needs);
+    const auto layers = std::size_t(capacity_ * faces_);
+    bindInOrder({&layerCameras_, &casterConstants_, &layerLists_, &layerMasks_});
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
     // In one go where the vertex shader chooses the layer, else layer by layer.
     const std::size_t rounds = device_.layerFromVertexShader ? 1 : layers;
@@ -168,14 +204,15 @@ void SampleMaps::draw(int stage, int batch) {
         .width_px = mapSize_px_, .height_px = mapSize_px_, .depthWrite = true, .colorWrite = false};
     for (std::size_t round = 0; round < rounds; ++round) {
         if (rounds > 1) framebuffer_.attachDepthLayer(maps_, int(round));
-        // Only the layers of this batch are cleared, by a triangle: which they are, the device may alone
+        // Only what is needed of the layers of this batch is cleared: what that is, the device alone may
         // know.
         state.depthTest = GL_ALWAYS;
         gl::beginPass(framebuffer_.name(), state);
         glBindVertexArray(noVertices_.name());
         clear_.use();
-        setBatch(stage, batch);
-        glDrawArraysIndirect(GL_TRIANGLES, commandAt(casters_.size() * rounds + round));
+        const std::size_t clearing = casters_.size() * rounds + round;
+        glUniform1i(1, int(device_.layerFromVertexShader ? casters_.size() * layers : clearing));
+        glDrawArraysIndirect(GL_TRIANGLES, commandAt(clearing));
         state.depthTest = GL_GREATER;
         gl::beginPass(framebuffer_.name(), state);
         glBindVertexArray(vertices_.name());

@@ -18,6 +18,9 @@
 
 namespace penumbra {
 
+/// As many groups as the device has written into the buffer.
+void dispatchIndirect(const gl::Buffer& buffer, std::size_t offset_bytes);
+
 class SampleMaps {
   public:
     explicit SampleMaps(Device& device);
@@ -40,8 +43,21 @@ class SampleMaps {
     int capacity() const { return capacity_; }
     int batches(int mostSlots) const { return (mostSlots + capacity_ - 1) / capacity_; }
 
-    /// Draws the maps of batch `batch` of a stage.
-    void draw(int stage, int batch);
+    /// The same casters again, wherever the host keeps them now.
+    void keep(std::span<const Caster> casters) { casters_ = casters; }
+
+    /// What maps have to show.
+    struct Needs {
+        const gl::Buffer* tiles = nullptr;  ///< of receivers, see ReceiverTiles; null: everything
+        int tileCount = 0;
+        bool asksByQuads = false;  ///< tiles say which samples they ask for
+        float reach = 0;           ///< of the filter between samples, in sides of the unit square
+        const gl::Buffer* redraw =
+            nullptr;  ///< RedrawGroups: none if last frame's maps will do; null: they will not
+    };
+
+    /// Draws the maps of batch `batch` of a stage, as far as they are needed: elsewhere they are undefined.
+    void draw(int stage, int batch, const SampleCameras& cameras, const Needs& needs);
 
     /// Binds the maps to texture unit 3 and to storage blocks 0 to 4: plan, slots, samples, taps, order. For
     /// sample_test.glsl and evaluate.comp.glsl.
@@ -58,15 +74,17 @@ class SampleMaps {
 
   private:
     void allocate(int mapSize_px, int layers);
+    void placeLayers(int stage, int batch, const SampleCameras& cameras, const Needs& needs);
+    void listLayers(int stage, int batch, const Needs& needs);
     void drawCaster(std::size_t caster, std::size_t command) const;
 
     Device::Internals& device_;
-    gl::Program opaque_, masked_, gather_, clear_;
+    gl::Program opaque_, masked_, placeLayers_, gather_, clear_;
     gl::VertexArrayHandle vertices_, noVertices_;
     gl::Texture maps_;
     gl::Framebuffer framebuffer_;
-    gl::Buffer plan_, slots_, order_, samples_, cameras_;          // as the CPU or the device chose them
-    gl::Buffer layerCameras_, layerTaps_, layerLists_, commands_;  // of the batch, by layer
+    gl::Buffer plan_, slots_, order_, samples_, cameras_;  // as the CPU or the device chose them
+    gl::Buffer layerCameras_, layerTaps_, layerMasks_, layerLists_, commands_;  // of the batch, by layer
     gl::Buffer cullBoxes_, casterConstants_;
     std::vector<CullBox> boxes_;
     std::vector<CasterConstants> constants_;

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether a receiver sees samples of the light, and how much of the light each stands for.
 // Variants: DISTANT, SPHERE; CUBE, where receivers surround the light; FILTER 2 or 3, a side of the kernel in texels.
+// LEAST_HEIGHT: how far a sample must be above the horizon to count, in parts of its distance.
 #define PLAN_BLOCK 0
+#ifndef LEAST_HEIGHT
+#define LEAST_HEIGHT 0.0
+#endif
 #include "src/techniques/light_sampling/batch.glsl"
 
 layout(binding = 3) uniform sampler2DArray maps;
@@ -37,12 +41,12 @@ bool isBehindLight(Receiver receiver) { return isOneSided && receiver.posLight.z
 float countOf(LightSample light, Receiver receiver) {
 #ifdef DISTANT
     float cosine = dot(receiver.normalLight, light.place.xyz);
-    return cosine > 0.0 ? (isWeightedByIrradiance ? cosine : 1.0) : 0.0;
+    return cosine > LEAST_HEIGHT ? (isWeightedByIrradiance ? cosine : 1.0) : 0.0;
 #else
     vec3 toSample = light.place.xyz - receiver.posLight;
     float above = dot(receiver.normalLight, toSample);
-    if (!(above > 0.0)) return 0.0;
     float distance2 = dot(toSample, toSample);
+    if (!(above > LEAST_HEIGHT * sqrt(distance2))) return 0.0;
 #ifdef SPHERE
     // Relative to the sphere as seen from its centre's distance; the floor leaves something to compare where none of a
     // few samples faces the receiver.
@@ -75,7 +79,7 @@ float texelLit(int layer, LayerTap tap, vec3 pos, vec3 normal, float across, vec
     float along = dot(normal, vec3(place, 1.0));
     float receiver_m = across * along > 0.0 ? across / along : pos.z + 64.0 * texel_m;
 #endif
-    receiver_m = clamp(receiver_m, pos.z - 64.0 * texel_m, pos.z + 64.0 * texel_m);
+    receiver_m = clamp(receiver_m, pos.z - 64.0 * texel_m, pos.z);
     receiver_m -= texel_m + 4e-6 * length(pos);
 #ifdef DISTANT
     return receiver_m <= nearFar_m.y - stored * (nearFar_m.y - nearFar_m.x) || stored == 0.0 ? 1.0 : 0.0;

@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 namespace penumbra {
 using glm::ivec4;
+using glm::uint;
 using glm::uvec4;
 using glm::vec4;
 #endif
@@ -43,6 +44,27 @@ struct CullBox {
     uvec4 draw;       // x: number of indices, 0 where it casts nothing
 };
 
+// A piece of the picture: a box around its receivers, in the axes of the maps (a cube's: the light's), as
+// orderedBits; low.x > high.x where it has none. The last of each: 4 rows of 8 quads of level 3, a bit each,
+// whose samples of level 4 are asked for.
+struct ReceiverTile {
+    uvec4 low, high;
+};
+const int mostTiles = 4096;
+
+// Groups to dispatch where maps are kept from the last frame; x: 0 unless receivers have moved.
+struct RedrawGroups {
+    uvec4 tiles, slots;
+};
+
+// What a map has to show: the depth along its axis of the farthest receiver in each cell, as orderedBits; 0:
+// there is none.
+const int maskSide = 32;
+struct LayerMask {
+    ivec4 cells;  // xy: first, zw: last cell that has receivers; none: z < 0
+    uint farthest[maskSide * maskSide];
+};
+
 // What glDrawElementsIndirect reads, and with its first four glDrawArraysIndirect.
 struct DrawCommand {
     int count;
@@ -61,7 +83,7 @@ const int stageOfDeepest = 6;  // what is not
 const int stageOfAll = 7;
 
 struct SamplingPlan {
-    ivec4 stages[maxStages];  // x: first slot; y: number of slots
+    ivec4 stages[maxStages];  // x: first slot; y: number of slots; yzw: as many groups, to dispatch
     uvec4 compareGroups;      // to dispatch for the slots of the next round: none where it has none
     uvec4 examineGroups;
     ivec4 evaluated;  // x: samples to evaluate, in the order of `Order`
@@ -69,7 +91,18 @@ struct SamplingPlan {
 
 #ifdef __cplusplus
 static_assert(sizeof(LightSample) == 80 && sizeof(LayerTap) == 32 && sizeof(CullBox) == 144);
+static_assert(sizeof(ReceiverTile) == 32 && sizeof(RedrawGroups) == 32 &&
+              sizeof(LayerMask) == 16 + 4 * maskSide * maskSide);
 static_assert(sizeof(DrawCommand) == 20 && sizeof(SamplingPlan) == 176 && sizeof(SampleCamera) == 192);
 }  // namespace penumbra
+#else
+// Larger numbers have larger bits.
+uint orderedBits(float value) {
+    uint bits = floatBitsToUint(value);
+    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+}
+float fromOrderedBits(uint bits) {
+    return uintBitsToFloat((bits & 0x80000000u) != 0u ? bits & 0x7fffffffu : ~bits);
+}
 #endif
 #endif

@@ -21,13 +21,6 @@ void resize(gl::Texture& texture, int width_px, int height_px, GLenum format, st
     texture = gl::Texture({.width_px = width_px, .height_px = height_px, .format = format, .label = label});
 }
 
-/// As many groups as the device has written into the plan.
-void dispatchPlanned(const SampleMaps& maps, std::size_t offset_bytes) {
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, maps.plan().name());
-    glDispatchComputeIndirect(GLintptr(offset_bytes));
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
-}
-
 constexpr int quadsPictureSize_px = 257;
 
 int latticeSize(int depth) {
@@ -111,7 +104,7 @@ void SubdivisionPasses::compare(const ShadowInputs& inputs, const SampleCameras&
     if (stage == stageOfCoarse) {
         gl::dispatchPixels(bits_.width_px(), bits_.height_px());
     } else {
-        dispatchPlanned(maps, offsetof(SamplingPlan, compareGroups));
+        dispatchIndirect(maps.plan(), offsetof(SamplingPlan, compareGroups));
     }
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
@@ -127,7 +120,7 @@ void SubdivisionPasses::prepareExamination(const SubdivisionOptions& options) {
 
 void SubdivisionPasses::examine(const SampleMaps& maps, const SubdivisionOptions& options) {
     prepareExamination(options);
-    dispatchPlanned(maps, offsetof(SamplingPlan, examineGroups));
+    dispatchIndirect(maps.plan(), offsetof(SamplingPlan, examineGroups));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

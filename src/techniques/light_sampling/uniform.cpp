@@ -54,7 +54,7 @@ void UniformLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& 
     for (int batch = 0; batch < batches_; ++batch) {
         {
             const auto pass = timers_.pass("uniform/maps");
-            maps_.draw(stageOfAll, batch);
+            maps_.draw(stageOfAll, batch, cameras_, {});
         }
         {
             const auto pass = timers_.pass("uniform/evaluation");
