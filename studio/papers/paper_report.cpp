@@ -2,6 +2,7 @@
 #include "studio/papers/paper_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
