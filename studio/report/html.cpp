@@ -12,8 +12,9 @@ h2 { margin-top: 2em; border-top: 1px solid #ccc; padding-top: .6em; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: .8em 0; }
 th, td { padding: .2em .8em; text-align: right; border-bottom: 1px solid #ddd; }
 th:first-child, td:first-child { text-align: left; }
-.row { display: grid; grid-template-columns: repeat(auto-fill, minmax(280px, 1fr)); gap: .6em; margin: .6em 0; }
-figure { margin: 0; break-inside: avoid; } figure img { width: 100%; display: block; }
+td { white-space: pre-line; }
+.row { display: grid; grid-template-columns: repeat(auto-fit, minmax(280px, 1fr)); gap: .6em; margin: .6em 0; }
+figure { margin: 0; break-inside: avoid; } figure img { width: 100%; max-width: 590px; display: block; }
 figcaption { font-size: 13px; color: #555; }
 .judgement { background: #eef3f8; border-left: 4px solid #4477aa; padding: .4em .8em; }
 .paper { color: #555; font-style: italic; }

@@ -10,7 +10,7 @@ namespace {
 
 void addAbsent(CLI::App& app, const std::string& name) {
     CLI::App* command = app.add_subcommand(name, "not in this build, which is for the bench alone");
-    command->prefix_command();  // takes whatever flags are meant for the real one
+    command->fallthrough(false)->allow_extras();  // whatever flags are meant for the real one
     command->callback([name] {
         throw UsageError(
             fmt::format("'{}' is not in this build, which is for the bench alone; configure with "
