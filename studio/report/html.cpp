@@ -10,16 +10,20 @@ constexpr const char* style = R"(
 body { font: 15px/1.5 system-ui, sans-serif; margin: 2em auto; max-width: 1200px; padding: 0 1em; color: #222; background: #fafafa; }
 h2 { margin-top: 2em; border-top: 1px solid #ccc; padding-top: .6em; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: .8em 0; }
-th, td { padding: .2em .8em; text-align: right; border-bottom: 1px solid #ddd; }
-th:first-child, td:first-child { text-align: left; }
-td { white-space: pre-line; }
+th, td { padding: .2em .8em; text-align: right; border-bottom: 1px solid #ddd; white-space: pre; }
+th:first-child, td:first-child { text-align: left; white-space: normal; }
 .row { display: grid; grid-template-columns: repeat(auto-fit, minmax(280px, 1fr)); gap: .6em; margin: .6em 0; }
 figure { margin: 0; break-inside: avoid; } figure img { width: 100%; max-width: 590px; display: block; }
 figcaption { font-size: 13px; color: #555; }
 .judgement { background: #eef3f8; border-left: 4px solid #4477aa; padding: .4em .8em; }
 .paper { color: #555; font-style: italic; }
 .missing { color: #a33; }
-@media print { body { margin: 0; max-width: none; background: #fff; } h2 { break-after: avoid; } tr { break-inside: avoid; } }
+@media print {
+  body { font-size: 10.5px; margin: 0; padding: 0; max-width: none; background: #fff; }
+  h2 { margin-top: 1.2em; break-after: avoid; } tr, p { break-inside: avoid; }
+  th, td { padding: .1em .5em; } figcaption { font-size: 10px; }
+  .row { grid-template-columns: repeat(auto-fit, minmax(170px, 1fr)); } figure img { max-width: 300px; }
+}
 )";
 
 }  // namespace
