@@ -254,6 +254,13 @@ TEST_F(CommandTest, CompareKeepsItsContract) {
     }
 }
 
+TEST_F(CommandTest, CompareLooksAtAllScenesBeforeItStarts) {
+    EXPECT_EQ(
+        run("compare half-plane nowhere.glb -t hard --size 32x32 --samples 4 -o " + at("report")).exitCode,
+        3);
+    EXPECT_TRUE(files().empty()) << "work on the first";
+}
+
 TEST_F(CommandTest, CompareRanksSeveralScenes) {
     const Outcome outcome =
         run("compare two-boxes torus -t hard,pcss --size 64x48 --samples 16 --json -o " + at("report"));

@@ -2,6 +2,7 @@
 #include "apps/penumbra/arguments.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 

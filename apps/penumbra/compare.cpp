@@ -128,6 +128,11 @@ Comparison compareScene(const SceneArguments& scene, const std::vector<Contender
     return comparison;
 }
 
+/// Throws now what would end the work when it is this scene's turn.
+void requireScenes(const std::vector<std::string>& scenes, const SceneArguments& view) {
+    for (const std::string& name : scenes) view.cameraIn(openScene(name, view.openOptions()).at(view.time_s));
+}
+
 /// A folder for each of several scenes: its name, or its file's without the extension.
 std::filesystem::path folderOf(const std::filesystem::path& output, const std::string& scene, bool alone) {
     return alone ? output : output / std::filesystem::path(scene).stem();
@@ -146,6 +151,7 @@ void compare(const CompareArguments& arguments, const std::string& commandLine) 
             {.label = name, .technique = name, .settings = parseSettings(arguments.settings)});
     }
     const bool alone = scenes.size() == 1;
+    if (!alone) requireScenes(scenes, arguments.view);
     if (!arguments.output.empty()) {
         std::set<std::filesystem::path> folders;
         for (const std::string& scene : scenes) {

@@ -2,6 +2,7 @@
 #include "studio/bench/bench_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>

@@ -130,6 +130,10 @@ MovedFrame movedFrame(const Scene& scene, const SceneMoment& start, const Camera
     return moved;
 }
 
+bool canJudge() {
+    return true;
+}
+
 Comparison judge(Workbench& workbench, const Scene& scene, const SceneMoment& moment, const Camera& camera,
                  PictureSize size, std::span<const Contender> contenders, const JudgeOptions& options) {
     ReferenceTechnique reference;

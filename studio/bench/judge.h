@@ -34,10 +34,13 @@ struct JudgeOptions {
 /// What a technique's flicker is measured over.
 inline constexpr int flickerFrames = 8;
 
+/// Whether this build has a truth to judge by: all but those for the bench alone.
+bool canJudge();
+
 /// Renders the truth and every contender, and compares. `scene` must be open on `workbench`; `moment` is of
 /// it and `camera` of `moment`. Throws penumbra::Error for a technique or parameter that does not exist, and
-/// std::runtime_error, naming the pixel, for a visibility that is not finite. Names of scene and command are
-/// left to the caller.
+/// std::runtime_error, naming the pixel, for a visibility that is not finite, and UsageError unless
+/// canJudge(). Names of scene and command are left to the caller.
 Comparison judge(Workbench& workbench, const Scene& scene, const SceneMoment& moment, const Camera& camera,
                  PictureSize size, std::span<const Contender> contenders, const JudgeOptions& options);
 

@@ -32,6 +32,10 @@ struct Image {
     }
 };
 
+struct PictureSize {
+    int width_px = 0, height_px = 0;
+};
+
 /// Text that travels with a picture: "Software", "penumbra:command", ...
 using Metadata = std::map<std::string, std::string>;
 

@@ -67,7 +67,7 @@ bool isBackground(float value, bool isDepth) {
 }
 
 /// Channel by channel. Depths lie close together, far from anything a screen could show as it is; shares of 1
-/// are shown as they are.
+/// keep their zero.
 void stretch(Image& image, bool isDepth) {
     const auto channels = std::size_t(image.channels);
     for (std::size_t channel = 0; channel < channels; ++channel) {
@@ -79,7 +79,7 @@ void stretch(Image& image, bool isDepth) {
         std::ranges::sort(values);
         const bool isShare = !isDepth && values.front() >= 0 && values.back() <= 1;
         const float low = isShare ? 0 : values[values.size() / 100];
-        const float high = isShare ? 1 : values[values.size() - 1 - values.size() / 100];
+        const float high = values[values.size() - 1 - values.size() / 100];
         const float range = high > low ? high - low : 1;
         // Stretched values start a tenth above black, so that the least is told from the background.
         const float foot = isShare ? 0 : 0.1f;
@@ -92,16 +92,46 @@ void stretch(Image& image, bool isDepth) {
     }
 }
 
+/// The smallest part of the shape of `shape` around all that is not black, with a margin; black where it
+/// reaches out of the picture.
+Image cropped(const Image& image, PictureSize shape) {
+    int left = image.width_px, top = image.height_px, right = 0, bottom = 0;
+    for (int y = 0; y < image.height_px; ++y) {
+        for (int x = 0; x < image.width_px; ++x) {
+            float largest = 0;
+            for (int channel = 0; channel < image.channels; ++channel)
+                largest = std::max(largest, image.at(x, y, channel));
+            if (largest == 0) continue;
+            left = std::min(left, x), right = std::max(right, x + 1);
+            top = std::min(top, y), bottom = std::max(bottom, y + 1);
+        }
+    }
+    if (left >= right) return image;
+    constexpr float margin = 1.15f;
+    const float aspect = float(shape.width_px) / float(shape.height_px);
+    const float height = margin * std::max(float(bottom - top), float(right - left) / aspect);
+    Image part(std::max(int(height * aspect), 1), std::max(int(height), 1), image.channels);
+    const int x0 = (left + right - part.width_px) / 2, y0 = (top + bottom - part.height_px) / 2;
+    for (int y = std::max(y0, 0); y < std::min(y0 + part.height_px, image.height_px); ++y) {
+        for (int x = std::max(x0, 0); x < std::min(x0 + part.width_px, image.width_px); ++x) {
+            for (int channel = 0; channel < image.channels; ++channel)
+                part.at(x - x0, y - y0, channel) = image.at(x, y, channel);
+        }
+    }
+    return part;
+}
+
 }  // namespace
 
-std::optional<Image> bufferPicture(const Technique& technique, std::string_view name) {
+std::optional<Image> bufferPicture(const Technique& technique, std::string_view name, PictureSize shape) {
     Finder finder(name);
     technique.inspect(finder);
     if (!finder.found || finder.found->texture == 0) return std::nullopt;
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     Image image = readLayer(finder.found->texture);
     stretch(image, levelParameter(finder.found->texture, GL_TEXTURE_DEPTH_SIZE) > 0);
-    return image;
+    const bool isOfView = image.width_px * shape.height_px == image.height_px * shape.width_px;
+    return isOfView ? image : cropped(image, shape);
 }
 
 }  // namespace penumbra::studio

@@ -2,6 +2,7 @@
 #include "studio/papers/paper_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -137,7 +138,7 @@ std::string tableHtml(const TableResult& result) {
                 std::size_t(std::ranges::find(header, table.cells[i].column) - header.begin());
             const CellResult& cell = result.cells[i];
             row[column] = cell.missing.empty()
-                              ? fmt::format("{:.1f} ms, {:.2f} x (paper: {:g} {}, {:.2f} x)", cell.cost_ms,
+                              ? fmt::format("{:.1f} ms, {:.2f} x\npaper: {:g} {}, {:.2f} x", cell.cost_ms,
                                             cell.ours, table.cells[i].paper, table.unit, cell.paper)
                               : cell.missing;
         }

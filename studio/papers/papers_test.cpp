@@ -72,35 +72,39 @@ TEST(Recipes, NameTechniquesAndParametersThatExist) {
     }
 }
 
+/// Of figures and tables alone.
+Paper paperOf(std::vector<Figure> figures, std::vector<Table> tables = {}) {
+    return {.name = "paper",
+            .citation = "none",
+            .hardware = "none",
+            .figures = std::move(figures),
+            .tables = std::move(tables)};
+}
+
 const PressOptions tiny{.size = {48, 27}, .samples = 4, .rounds = 1};
 
 TEST(Press, SaysNotYetForWhatIsMissing) {
     const Situation boxes{.scene = "two-boxes"};
-    const Paper paper{
-        .name = "paper",
-        .citation = "none",
-        .hardware = "none",
-        .figures =
-            {{.id = "Figure 1",
-              .title = "missing things",
-              .panels = {{.caption = "technique", .situation = boxes, .technique = "magic", .paper = 1},
-                         {.caption = "parameter",
-                          .situation = boxes,
-                          .technique = "hard",
-                          .settings = {{"magic", "1"}}},
-                         {.caption = "buffer",
-                          .situation = boxes,
-                          .technique = "hard",
-                          .show = Show::buffer,
-                          .buffer = "magic"},
-                         {.caption = "there", .situation = boxes, .technique = "hard", .timed = true}},
-              .claims = {{"nothing costs less", Quantity::cost, 0, 3}}}},
-        .tables = {
-            {.id = "Table 1",
-             .title = "missing, too",
-             .unit = "ms",
-             .cells = {{.row = "r", .column = "c", .situation = boxes, .technique = "hard", .paper = 1},
-                       {.row = "s", .column = "c", .situation = boxes, .technique = "magic", .paper = 2}}}}};
+    const Paper paper = paperOf(
+        {{.id = "Figure 1",
+          .title = "missing things",
+          .panels = {{.caption = "technique", .situation = boxes, .technique = "magic", .paper = 1},
+                     {.caption = "parameter",
+                      .situation = boxes,
+                      .technique = "hard",
+                      .settings = {{"magic", "1"}}},
+                     {.caption = "buffer",
+                      .situation = boxes,
+                      .technique = "hard",
+                      .show = Show::buffer,
+                      .buffer = "magic"},
+                     {.caption = "there", .situation = boxes, .technique = "hard", .timed = true}},
+          .claims = {{"nothing costs less", Quantity::cost, 0, 3}}}},
+        {{.id = "Table 1",
+          .title = "missing, too",
+          .unit = "ms",
+          .cells = {{.row = "r", .column = "c", .situation = boxes, .technique = "hard", .paper = 1},
+                    {.row = "s", .column = "c", .situation = boxes, .technique = "magic", .paper = 2}}}});
     Workbench workbench;
     const PaperResult result = reproduce(workbench, paper, tiny);
     const std::vector<PanelResult>& panels = result.figures[0].panels;
@@ -120,16 +124,13 @@ TEST(Press, SaysNotYetForWhatIsMissing) {
 
 TEST(Press, JudgesClaimsByTheNumbers) {
     const Situation plane{.scene = "half-plane"};
-    const Paper paper{
-        .name = "paper",
-        .citation = "none",
-        .hardware = "none",
-        .figures = {{.id = "Figure 1",
-                     .title = "a half-plane",
-                     .panels = {{.caption = "hard", .situation = plane, .technique = "hard"},
-                                {.caption = "pcss", .situation = plane, .technique = "pcss"}},
-                     .claims = {{"soft is nearer to the truth", Quantity::penumbraError, 1, 0},
-                                {"hard is nearer to the truth", Quantity::penumbraError, 0, 1}}}}};
+    const Paper paper =
+        paperOf({{.id = "Figure 1",
+                  .title = "a half-plane",
+                  .panels = {{.caption = "hard", .situation = plane, .technique = "hard"},
+                             {.caption = "pcss", .situation = plane, .technique = "pcss"}},
+                  .claims = {{"soft is nearer to the truth", Quantity::penumbraError, 1, 0},
+                             {"hard is nearer to the truth", Quantity::penumbraError, 0, 1}}}});
     Workbench workbench;
     const PaperResult result = reproduce(workbench, paper, {.size = {48, 27}, .samples = 64, .rounds = 1});
     EXPECT_TRUE(result.figures[0].claims[0].holds());
@@ -137,14 +138,29 @@ TEST(Press, JudgesClaimsByTheNumbers) {
     EXPECT_NE(judgements(result).find("Does not hold here: hard"), std::string::npos) << judgements(result);
 }
 
+TEST(Press, ShowsOfTheLightsBuffersWhatIsInThem) {
+    const Paper paper = paperOf({{.id = "Figure 1",
+                                  .title = "a sphere, small in its map",
+                                  .panels = {{.caption = "depth map",
+                                              .situation = {.scene = "sphere"},
+                                              .technique = "shadow-width",
+                                              .show = Show::buffer,
+                                              .buffer = "depth map"}},
+                                  .judged = false}});
+    Workbench workbench;
+    const PaperResult result = reproduce(workbench, paper, tiny);
+    const Image& picture = result.figures[0].panels[0].image;
+    EXPECT_NEAR(double(picture.width_px) / picture.height_px, 48.0 / 27, 0.02) << "whole texels";
+    // A disk across 1 / 1.15 of the height, in a picture of 16:9.
+    const auto shown = std::ranges::count_if(picture.values, [](float value) { return value > 0; });
+    EXPECT_NEAR(double(shown) / double(picture.pixelCount()), 0.785 / (1.15 * 1.15) * 9 / 16, 0.03);
+}
+
 TEST(Press, SaysWhatStandsInForAModel) {
     const Situation model{.scene = "two-boxes", .model = "models/nowhere.glb"};
-    const Paper paper{.name = "paper",
-                      .citation = "none",
-                      .hardware = "none",
-                      .figures = {{.id = "Figure 1",
-                                   .title = "t",
-                                   .panels = {{.caption = "c", .situation = model, .technique = "hard"}}}}};
+    const Paper paper = paperOf({{.id = "Figure 1",
+                                  .title = "t",
+                                  .panels = {{.caption = "c", .situation = model, .technique = "hard"}}}});
     Workbench workbench;
     const PaperResult result = reproduce(workbench, paper, tiny);
     EXPECT_EQ(result.figures[0].standIns, std::vector<std::string>{"two-boxes for models/nowhere.glb"});

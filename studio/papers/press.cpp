@@ -123,7 +123,7 @@ std::map<std::string, Rendering> Press::render(const Figure& figure, const Situa
 
     const auto inspect = [&](const Contender& contender, const Technique& technique) {
         for (const std::string& name : buffers[contender.label]) {
-            if (std::optional<Image> picture = bufferPicture(technique, name))
+            if (std::optional<Image> picture = bufferPicture(technique, name, options_.size))
                 renderings[contender.label].buffers[name] = std::move(*picture);
         }
     };

@@ -59,12 +59,12 @@ Paper schwaerzler2012() {
         torus{.scene = "torus"},
         sponza{.scene = "columns",
                .model = "sponza/Sponza.gltf",
-               // Inside the atrium, under a light over its open roof.
+               // Inside the atrium, under a light in its open roof.
                .placement = Placement{.eye = {-11, 3, 0.5f},
                                       .target = {2, 2.5f, -0.5f},
-                                      .light = {-2, 19, 1},
-                                      .lightTarget = {0, 0, 0},
-                                      .lightSize_m = 3}};
+                                      .light = {-5, 13, 1.2f},
+                                      .lightTarget = {4, 1, -0.5f},
+                                      .lightSize_m = 1}};
     paper.figures.push_back(
         {.id = "Figure 1",
          .title = "Fewer maps from afar, more from nearby",

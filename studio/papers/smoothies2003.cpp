@@ -38,7 +38,7 @@ Figure edges() {
     Figure figure{.id = "Figure 7",
                   .title = "The cylinder's shadow edge by method and map size",
                   .note = "The paper's times are printed in its pictures alone and are not repeated here."};
-    const Situation cylinder{.scene = "primitives", .camera = "cylinder"};
+    const Situation cylinder{.scene = "primitives", .camera = "cylinder", .zoom = 2};
     for (const char* size : {"256", "512", "1024"}) {
         const Settings map = {{"map_size", size}};
         const std::string at = std::string(", ") + size;
@@ -103,33 +103,35 @@ const std::vector<Model>& models() {
 Figure gallery() {
     Figure figure{.id = "Figure 12",
                   .title = "Complex blockers and receivers: plain maps, smoothies, ray tracing",
-                  .note = "Models of like size stand in for the paper's."};
+                  .note = "In the paper's models' places: a pirate ship, a seagull, a cow and a bicycle."};
     for (const Model& model : models()) {
         if (model.situation.model.empty()) continue;
-        figure.panels.push_back({.caption = std::string("hard, ") + model.title,
+        figure.panels.push_back({.caption = std::string("hard, for the ") + model.title,
                                  .situation = model.situation,
                                  .technique = "hard",
                                  .settings = {{"map_size", "1024"}}});
-        figure.panels.push_back(smoothies(std::string("smoothies, ") + model.title, model.situation,
+        figure.panels.push_back(smoothies(std::string("smoothies, for the ") + model.title, model.situation,
                                           with(published, "map_size", "1024")));
         figure.panels.push_back(truth(model.situation));
     }
     figure.columns = 3;
     for (std::size_t i = 0; i < figure.panels.size(); i += 3) {
         figure.claims.push_back({"smoothies are nearer to the truth than a plain map (" +
-                                     figure.panels[i].caption.substr(6) + ")",
+                                     figure.panels[i].caption.substr(14) + ")",
                                  Quantity::penumbraError, i + 1, i});
     }
     return figure;
 }
 
 Table performance() {
-    Table table{
-        .id = "Table 1",
-        .title = "Cost by scene and buffer size",
-        .unit = "ms",
-        .baselineRow = "256",
-        .note = "The paper times whole frames, of which the map is a small part; we time the shadows alone."};
+    Table table{.id = "Table 1",
+                .title = "Cost by scene and buffer size",
+                .unit = "ms",
+                .baselineRow = "256",
+                .note =
+                    "The paper times whole frames, of which the map is a small part; we time the shadows "
+                    "alone, of the "
+                    "models of Figure 12."};
     constexpr std::array sizes = {"256", "512", "1024"};
     for (const Model& model : models()) {
         for (std::size_t i = 0; i < sizes.size(); ++i) {

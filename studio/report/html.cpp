@@ -3,10 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-
-#include "studio/image/image_io.h"
-
 namespace penumbra::studio::html {
 namespace {
 
@@ -14,31 +10,21 @@ constexpr const char* style = R"(
 body { font: 15px/1.5 system-ui, sans-serif; margin: 2em auto; max-width: 1200px; padding: 0 1em; color: #222; background: #fafafa; }
 h2 { margin-top: 2em; border-top: 1px solid #ccc; padding-top: .6em; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: .8em 0; }
-th, td { padding: .2em .8em; text-align: right; border-bottom: 1px solid #ddd; }
-th:first-child, td:first-child { text-align: left; }
-.row { display: grid; grid-template-columns: repeat(auto-fill, minmax(280px, 1fr)); gap: .6em; margin: .6em 0; }
-figure { margin: 0; break-inside: avoid; } figure img { width: 100%; display: block; }
+th, td { padding: .2em .8em; text-align: right; border-bottom: 1px solid #ddd; white-space: pre; }
+th:first-child, td:first-child { text-align: left; white-space: normal; }
+.row { display: grid; grid-template-columns: repeat(auto-fit, minmax(280px, 1fr)); gap: .6em; margin: .6em 0; }
+figure { margin: 0; break-inside: avoid; } figure img { width: 100%; max-width: 590px; display: block; }
 figcaption { font-size: 13px; color: #555; }
 .judgement { background: #eef3f8; border-left: 4px solid #4477aa; padding: .4em .8em; }
 .paper { color: #555; font-style: italic; }
 .missing { color: #a33; }
-@media print { body { margin: 0; max-width: none; background: #fff; } h2 { break-after: avoid; } tr { break-inside: avoid; } }
-)";
-
-std::string base64(std::span<const std::byte> bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const auto byte = [&](std::size_t k) { return k < bytes.size() ? std::uint32_t(bytes[k]) : 0u; };
-        const std::uint32_t three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
-        text += digits[three >> 18];
-        text += digits[three >> 12 & 63];
-        text += i + 1 < bytes.size() ? digits[three >> 6 & 63] : '=';
-        text += i + 2 < bytes.size() ? digits[three & 63] : '=';
-    }
-    return text;
+@media print {
+  body { font-size: 10.5px; margin: 0; padding: 0; max-width: none; background: #fff; }
+  h2 { margin-top: 1.2em; break-after: avoid; } tr, p { break-inside: avoid; }
+  th, td { padding: .1em .5em; } figcaption { font-size: 10px; }
+  .row { grid-template-columns: repeat(auto-fit, minmax(170px, 1fr)); } figure img { max-width: 300px; }
 }
+)";
 
 }  // namespace
 
@@ -63,13 +49,6 @@ std::string escape(std::string_view text) {
         }
     }
     return escaped;
-}
-
-std::string figure(const Image& image, std::string_view caption) {
-    const std::string text = escape(caption);
-    return fmt::format(
-        "<figure><img src=\"data:image/png;base64,{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-        base64(encodePng(image)), text, text);
 }
 
 std::string table(std::span<const std::string> header, std::span<const std::vector<std::string>> rows) {

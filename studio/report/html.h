@@ -16,7 +16,8 @@ std::string escape(std::string_view text);
 /// `image` (values as they shall be shown) under its caption, which is text.
 std::string figure(const Image& image, std::string_view caption);
 
-/// A table whose first column is text and whose other columns are numbers, aligned right. Cells are text.
+/// A table whose first column is text and whose other columns are numbers, aligned right. Cells are text,
+/// in which "\n" starts a new line.
 std::string table(std::span<const std::string> header, std::span<const std::vector<std::string>> rows);
 
 /// A whole page; `body` is HTML, `title` text.

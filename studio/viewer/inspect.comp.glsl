@@ -3,15 +3,9 @@
 // A texture as a picture: one layer, from black to white over a range that is given, or over what is in it.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#ifdef LAYERED
-layout(binding = 0) uniform sampler2DArray inspected;
-#else
-layout(binding = 0) uniform sampler2D inspected;
-#endif
-layout(location = 0) uniform ivec2 size;
+#include "studio/viewer/inspected.glsl"
+
 layout(location = 1) uniform vec2 range;  // black, white
-layout(location = 2) uniform int layer;
-layout(location = 3) uniform bool grey;  // the texture has one channel
 layout(location = 4) uniform bool stretched;
 // From inspect_range.comp.glsl.
 layout(std430, binding = 0) readonly buffer Range {
@@ -27,11 +21,7 @@ float unordered(uint bits) {
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, size))) return;
-#ifdef LAYERED
-    vec4 value = texelFetch(inspected, ivec3(pixel, layer), 0);
-#else
-    vec4 value = texelFetch(inspected, pixel, 0);
-#endif
+    vec4 value = inspectedAt(pixel);
     vec2 ends = stretched && least < largest ? vec2(unordered(least), unordered(largest)) : range;
     vec3 shown = (value.rgb - ends.x) / (ends.y - ends.x);
     if (grey) shown = shown.rrr;

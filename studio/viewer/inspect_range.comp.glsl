@@ -4,14 +4,8 @@
 // the same order, so that the result does not depend on the order of the invocations.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#ifdef LAYERED
-layout(binding = 0) uniform sampler2DArray inspected;
-#else
-layout(binding = 0) uniform sampler2D inspected;
-#endif
-layout(location = 0) uniform ivec2 size;
-layout(location = 2) uniform int layer;
-layout(location = 3) uniform bool grey;
+#include "studio/viewer/inspected.glsl"
+
 layout(std430, binding = 0) buffer Range {
     uint least;
     uint largest;
@@ -25,11 +19,7 @@ uint ordered(float value) {
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, size))) return;
-#ifdef LAYERED
-    vec4 value = texelFetch(inspected, ivec3(pixel, layer), 0);
-#else
-    vec4 value = texelFetch(inspected, pixel, 0);
-#endif
+    vec4 value = inspectedAt(pixel);
     for (int channel = 0; channel < (grey ? 1 : 3); ++channel) {
         if (isnan(value[channel]) || isinf(value[channel])) continue;
         atomicMin(least, ordered(value[channel]));

@@ -2,6 +2,7 @@
 #include "studio/viewer/viewer.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <imgui_stdlib.h>
 #include <spdlog/spdlog.h>
 

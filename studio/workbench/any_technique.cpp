@@ -2,24 +2,19 @@
 #include "studio/workbench/any_technique.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 
-#include "studio/workbench/reference_technique.h"
+#include "studio/workbench/studio_techniques.h"
 
 namespace penumbra::studio {
-namespace {
-
-constexpr TechniqueInfo referenceInfo{"reference", "ray tracing (Embree): the truth, up to its stated noise",
-                                      0.01f};
-
-}  // namespace
 
 std::vector<TechniqueInfo> allTechniques() {
     const std::span<const TechniqueInfo> catalog = techniqueCatalog();
     std::vector<TechniqueInfo> all(catalog.begin(), catalog.end());
-    all.push_back(referenceInfo);
+    for (const StudioTechnique& ours : studioTechniques()) all.push_back(ours.info);
     return all;
 }
 
@@ -30,7 +25,9 @@ std::string_view defaultTechnique() {
 }
 
 std::unique_ptr<Technique> makeAnyTechnique(Device& device, std::string_view name) {
-    if (name == referenceInfo.name) return std::make_unique<ReferenceTechnique>();
+    for (const StudioTechnique& ours : studioTechniques()) {
+        if (name == ours.info.name) return ours.make();
+    }
     if (std::ranges::find(techniqueCatalog(), name, &TechniqueInfo::name) == techniqueCatalog().end()) {
         std::vector<std::string_view> names;
         for (const TechniqueInfo& info : allTechniques()) names.push_back(info.name);

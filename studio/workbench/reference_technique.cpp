@@ -4,6 +4,7 @@
 #include <array>
 
 #include "studio/workbench/reference_inputs.h"
+#include "studio/workbench/studio_techniques.h"
 
 namespace penumbra::studio {
 namespace {
@@ -11,6 +12,13 @@ namespace {
 constexpr std::array<std::string_view, 2> weightNames = {"area", "irradiance"};
 
 }  // namespace
+
+std::span<const StudioTechnique> studioTechniques() {
+    static constexpr StudioTechnique techniques[] = {
+        {{"reference", "ray tracing (Embree): the truth, up to its stated noise", 0.01f},
+         []() -> std::unique_ptr<Technique> { return std::make_unique<ReferenceTechnique>(); }}};
+    return techniques;
+}
 
 void ReferenceTechnique::describe(ParameterVisitor& visitor) {
     visitor.integer({.name = "samples", .unit = "rays", .help = "rays for each pixel"}, samples_, {2, 65536});

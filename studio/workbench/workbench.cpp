@@ -2,6 +2,7 @@
 #include "studio/workbench/workbench.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>

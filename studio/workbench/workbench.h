@@ -36,11 +36,6 @@ struct TechniqueResult {
     Image radiance;  ///< nits, RGB
 };
 
-struct PictureSize {
-    int width_px = 1280;
-    int height_px = 720;
-};
-
 /// A device without a window, and a frame on it.
 class Workbench {
   public:

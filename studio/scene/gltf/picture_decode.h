@@ -6,13 +6,10 @@
 #include <span>
 #include <string>
 
+#include "studio/image/image.h"
 #include "studio/scene/scene.h"
 
 namespace penumbra::studio {
-
-struct PictureSize {
-    int width_px = 0, height_px = 0;
-};
 
 /// Reads the header only. Throws InputError, naming the picture, where it is neither PNG nor JPEG, is
 /// damaged, or is larger than 16384 pixels a side or 2^27 pixels in all.
