@@ -42,9 +42,10 @@ float depthFace_m(int camera, float stored) {
 }
 
 // Where the plane through the point with the normal is seen in the direction of another place in the map, `uv`.
-// Compared with this depth, a plane never shadows itself, however steeply the light falls on it. Near the plane's
-// horizon the answer is bounded by `farthest_m` before and behind the point.
-float receiverPlaneDepth_m(int camera, MapPoint point, vec3 normalFace, vec2 uv, float farthest_m) {
+// Compared with this depth, a plane never shadows itself, however steeply the light falls on it. The answer is bounded by
+// `before_m` and `behind_m` of the point: the plane has a horizon; and where texels about the point answer for the point
+// itself, nothing behind it can shadow it (behind_m = 0).
+float receiverPlaneDepth_m(int camera, MapPoint point, vec3 normalFace, vec2 uv, float before_m, float behind_m) {
     LightCameraConstants c = lightCameras[camera];
     vec2 place = uv / c.window.zw + c.window.xy;
     float depth_m;
@@ -54,7 +55,7 @@ float receiverPlaneDepth_m(int camera, MapPoint point, vec3 normalFace, vec2 uv,
     } else {
         float across = dot(normalFace, point.posFace);
         float along = dot(normalFace, vec3(place, 1.0));
-        depth_m = across * along > 0.0 ? across / along : point.posFace.z + farthest_m;
+        depth_m = across * along > 0.0 ? across / along : point.posFace.z + behind_m;
     }
-    return clamp(depth_m, point.posFace.z - farthest_m, point.posFace.z + farthest_m);
+    return clamp(depth_m, point.posFace.z - before_m, point.posFace.z + behind_m);
 }

@@ -18,8 +18,8 @@ bool isFacingCenter(Receiver receiver, bool isDistant, bool isOneSided) {
 
 // Whether a texel that holds `stored` lets the light's centre see the receiver.
 bool isDepthLit(int camera, MapPoint point, vec3 normalFace, ivec2 texel, float stored, int size_px) {
-    float farthest_m = 64.0 * point.texel_m;
-    float receiver_m = receiverPlaneDepth_m(camera, point, normalFace, (vec2(texel) + 0.5) / float(size_px), farthest_m);
+    vec2 uv = (vec2(texel) + 0.5) / float(size_px);
+    float receiver_m = receiverPlaneDepth_m(camera, point, normalFace, uv, 64.0 * point.texel_m, 0.0);
     float tolerance_m = toleranceTexels * point.texel_m + tolerancePrecision * length(point.posFace);
     return receiver_m - tolerance_m <= depthFace_m(camera, stored);
 }

@@ -29,6 +29,17 @@ TEST_F(HardShadowMapTest, EqualsTheReferenceForEveryShapeOfLight) {
     }
 }
 
+TEST_F(HardShadowMapTest, WhatLiesBehindASurfaceEdgeOnToTheLightDoesNotShadowIt) {
+    // The front of the upper box, z = 0.55, is a hundredth of a texel wide. Its plane, continued to the middle of
+    // the texel, lies behind the boxes. The front is 0.3 % of what is lit; borders of shadows err by 0.07 %.
+    const Scene scene = withLight(makeBuiltin("two-boxes"), [](Light& light) {
+        shrinkToPoint(light);
+        light.shape.worldFromLight.columns[3][2] = 0.551f;
+    });
+    const LightResult result = render("hard", scene, size, {{"map_size", "512"}});
+    EXPECT_LE(judge(truth(scene, size), result).false_shadow, 0.0014);
+}
+
 /// A light among the casters needs a cube of maps, whose faces must meet without a seam.
 TEST_F(HardShadowMapTest, CubeOfMapsHasNoSeams) {
     const Scene scene = withMoment(makeBuiltin("columns"), [](SceneMoment& moment) {

@@ -22,7 +22,7 @@ bool needsSmoothies(Receiver receiver, out float seen) {
     if (findCamera(receiver, l)) {
         // One comparison is enough: where the nearest texels disagree, there is a smoothie.
         ivec2 texel = ivec2(l.point.uv * float(textureSize(depthMaps, 0).x));
-        bool behind = isBehindBlocker(l, texel, 64.0 * l.point.texel_m);
+        bool behind = isBehindBlocker(l, texel, 64.0 * l.point.texel_m, 0.0);
         seen = behind ? 0.0 : 1.0;
         if (!hasSmoothies) return false;
         bool inner = behind && smoothies[0].settings.w == 1;

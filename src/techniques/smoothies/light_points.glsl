@@ -31,7 +31,9 @@ Glance glanceAt(Lookup l, int i, float blocker) {
     float size_px = float(textureSize(depthMaps, 0).x);
     ivec2 texel = ivec2(uv * size_px);
     float stored = texelFetch(depthMaps, ivec3(texel, l.camera), 0).r;
-    float plane_m = receiverPlaneDepth_m(l.camera, l.point, l.normalFace, (vec2(texel) + 0.5) / size_px, 1e6 * l.point.texel_m);
+    float unbounded_m = 1e6 * l.point.texel_m;
+    vec2 uvSeen = (vec2(texel) + 0.5) / size_px;
+    float plane_m = receiverPlaneDepth_m(l.camera, l.point, l.normalFace, uvSeen, unbounded_m, unbounded_m);
     bool isHidden = plane_m - l.tolerance_m > depthFace_m(l.camera, stored);
     return Glance(true, isHidden, storedNearness(l.camera, stored));
 }

@@ -37,10 +37,10 @@ bool findCamera(Receiver receiver, out Lookup l) {
 }
 
 // Whether a blocker hides the receiver's own plane where a texel's centre sees it: compared so, no plane shadows itself.
-// The plane is followed at most `farthest_m` up or down.
-bool isBehindBlocker(Lookup l, ivec2 texel, float farthest_m) {
+// The plane is followed up and down as receiverPlaneDepth_m() says.
+bool isBehindBlocker(Lookup l, ivec2 texel, float before_m, float behind_m) {
     vec2 uv = (vec2(texel) + 0.5) / float(textureSize(depthMaps, 0).x);
-    float receiver_m = receiverPlaneDepth_m(l.camera, l.point, l.normalFace, uv, farthest_m);
+    float receiver_m = receiverPlaneDepth_m(l.camera, l.point, l.normalFace, uv, before_m, behind_m);
     float stored = texelFetch(depthMaps, ivec3(texel, l.camera), 0).r;
     return receiver_m - l.tolerance_m > depthFace_m(l.camera, stored);
 }
@@ -64,7 +64,7 @@ Neighbours neighboursOf(Lookup l) {
         vec2 weights = mix(1.0 - f, f, vec2(offset));
         float weight = weights.x * weights.y;
         ivec2 texel = clamp(base + offset, ivec2(0), ivec2(size_px - 1));
-        bool behind = isBehindBlocker(l, texel, 64.0 * l.point.texel_m);
+        bool behind = isBehindBlocker(l, texel, 64.0 * l.point.texel_m, 0.0);
         sums += behind ? vec2(weight, 0.0) : vec2(0.0, weight);
         if (behind && weight > most.x) n.behindTexel = texel;
         if (!behind && weight > most.y) n.litTexel = texel;

@@ -36,9 +36,8 @@ PastEdge pastEdge(Lookup l, uint number, int layer) {
     float farthest_m = 2.0 * (distance_ / windowTexel + 2.0) * l.point.texel_m;
     if (receiver >= blocker) return nothing;
     if (!inner) {
-        float plane_m = receiverPlaneDepth_m(l.camera, l.point, l.normalFace, uvOf(l.camera, closest), farthest_m);
-        float nearest_m = min(plane_m, l.point.posFace.z) - l.tolerance_m;
-        if (nearnessOf(l.camera, nearest_m) >= blocker) return nothing;
+        float plane_m = receiverPlaneDepth_m(l.camera, l.point, l.normalFace, uvOf(l.camera, closest), farthest_m, 0.0);
+        if (nearnessOf(l.camera, plane_m - l.tolerance_m) >= blocker) return nothing;
     }
 
     // The texel tells on which side of the edge it lies, and the receiver may lie on the other.
@@ -56,7 +55,7 @@ PastEdge pastEdge(Lookup l, uint number, int layer) {
     if (inner) {
         // The receiver's plane must be lit just beyond the edge, or else something under the blocker covers it too.
         ivec2 beyond = texelOf(l.camera, closest + beyondTexels * windowTexel * outward, textureSize(depthMaps, 0).x);
-        if (isBehindBlocker(l, beyond, farthest_m)) return nothing;
+        if (isBehindBlocker(l, beyond, farthest_m, farthest_m)) return nothing;
     }
     return PastEdge(falloff(l.camera, extent, x), outward, blocker);
 }
