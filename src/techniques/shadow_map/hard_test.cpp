@@ -30,8 +30,9 @@ TEST_F(HardShadowMapTest, EqualsTheReferenceForEveryShapeOfLight) {
 }
 
 TEST_F(HardShadowMapTest, WhatLiesBehindASurfaceEdgeOnToTheLightDoesNotShadowIt) {
-    // The front of the upper box, z = 0.55, is a hundredth of a texel wide. Its plane, continued to the middle of
-    // the texel, lies behind the boxes. The front is 0.3 % of what is lit; borders of shadows err by 0.07 %.
+    // The front of the upper box, z = 0.55, is a hundredth of a texel wide. Its plane, continued to the
+    // middle of the texel, lies behind the boxes. The front is 0.3 % of what is lit; borders of shadows err
+    // by 0.07 %.
     const Scene scene = withLight(makeBuiltin("two-boxes"), [](Light& light) {
         shrinkToPoint(light);
         light.shape.worldFromLight.columns[3][2] = 0.551f;
