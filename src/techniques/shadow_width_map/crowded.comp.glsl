@@ -42,12 +42,14 @@ float seenAmong(Receiving r, Footprint footprint, float seen, float deepest) {
         float otherSeen = isFar ? float(distance > 0.0) : shareBelow(otherExtents, distance);
         float cosine = dot(away, otherAway);
         // A convex blocker is what both edges have behind them; around a gap, what is seen is before both.
-        bool isConvex = dot(otherDivides.way_px - n.division.way_px, otherAway - away) >= 0.0;
+        float between_px = dot(otherDivides.way_px - n.division.way_px, otherAway - away) / max(length(otherAway - away), 1e-3);
+        bool isConvex = between_px >= 0.0;
         float both = isConvex ? 1.0 - inCommon(1.0 - seen, 1.0 - otherSeen, cosine) : inCommon(seen, otherSeen, cosine);
         // Past the end of an edge there is no telling what it bounds; nor do blockers at different heights have an inside
-        // in common.
+        // in common. A gap narrower than cells tell may as well be a blocker's tip.
         float weight = smoothstep(0.6, 0.9, abs(dot(otherAway, normalOf(other))));
         if (isConvex) weight *= 1.0 - smoothstep(0.15, 0.4, abs(blocker - r.nearness - n.above) / max(n.above, 1e-9));
+        else weight *= smoothstep(1.0, 2.0, -between_px / float(constants.cells.x));
         seen = mix(seen, both, weight);
     }
     return seen;
