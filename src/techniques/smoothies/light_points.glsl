@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points of the light, and whether the depth map hides them from a receiver. Includer includes lookup.glsl.
+
 // A point of the light as seen from a place in the window, from the light's centre, in face space. Points are spread evenly
 // over its shape by the R2 sequence (M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
 vec3 lightPoint(int i, vec2 place) {
