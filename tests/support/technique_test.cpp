@@ -78,6 +78,18 @@ Scene withMoment(Scene scene, const std::function<void(SceneMoment&)>& change) {
     return scene;
 }
 
+Scene withAlphaMask(Scene scene, Picture picture) {
+    constexpr int nearest = 0x2600;  // GL_NEAREST, as in glTF
+    scene.pictures.push_back(std::move(picture));
+    scene.textures.push_back(
+        {.picture = int(scene.pictures.size()) - 1, .minFilter = nearest, .magFilter = nearest});
+    for (Material& material : scene.materials) {
+        material.alpha = Material::Alpha::mask;
+        material.baseColorTexture = int(scene.textures.size()) - 1;
+    }
+    return scene;
+}
+
 void shrinkToPoint(Light& light) {
     light.shape.width_m = light.shape.height_m = light.shape.radius_m = light.shape.angle_rad = 0;
     light.texture = -1;

@@ -51,6 +51,9 @@ Scene withLight(Scene scene, const std::function<void(Light&)>& change);
 /// The scene as `change` leaves each of its moments.
 Scene withMoment(Scene scene, const std::function<void(SceneMoment&)>& change);
 
+/// The scene with the picture's alpha, unfiltered, cut out of all its materials.
+Scene withAlphaMask(Scene scene, Picture picture);
+
 /// A light of size zero at the same place.
 void shrinkToPoint(Light& light);
 

@@ -227,16 +227,9 @@ void cutStripes(Mesh& mesh, float width_m) {
 }
 
 TEST_F(ExactVisibilityTest, HolesOfAlphaMasksLetLightThrough) {
-    Scene scene = makeBuiltin("two-boxes");
-    const Scene solid = scene;
-    scene.pictures.push_back(stripes);
-    scene.textures.push_back(
-        {.picture = int(scene.pictures.size()) - 1, .minFilter = 0x2600, .magFilter = 0x2600});  // GL_NEAREST
+    const Scene solid = makeBuiltin("two-boxes");
+    Scene scene = withAlphaMask(solid, stripes);
     for (Mesh& mesh : scene.meshes) cutStripes(mesh, 0.5f);
-    for (Material& material : scene.materials) {
-        material.alpha = Material::Alpha::mask;
-        material.baseColorTexture = int(scene.textures.size()) - 1;
-    }
     const LightResult reference = truth(scene, size, 512);
     EXPECT_LE(judge(reference, exact(scene)).penumbra_rmse, 0.04);
     EXPECT_GE(shareOfDifferentPixels(reference, truth(solid, size, 64), 0.5f), 0.02);

@@ -69,17 +69,11 @@ TEST_F(HardShadowMapTest, HolesOfAlphaMasksLetLightThrough) {
     Scene scene = withLight(makeBuiltin("two-boxes"), shrinkToPoint);
     Picture stripes{
         .name = "stripes", .width_px = 2, .height_px = 1, .rgba = {255, 255, 255, 255, 255, 255, 255, 0}};
-    scene.pictures.push_back(stripes);
-    scene.textures.push_back(
-        {.picture = int(scene.pictures.size()) - 1, .minFilter = 0x2600, .magFilter = 0x2600});  // GL_NEAREST
     for (Mesh& mesh : scene.meshes) {
         mesh.uvs.clear();
         for (const glm::vec3& p : mesh.positions) mesh.uvs.emplace_back(p.x * 2, 0.5f);
     }
-    for (Material& material : scene.materials) {
-        material.alpha = Material::Alpha::mask;
-        material.baseColorTexture = int(scene.textures.size()) - 1;
-    }
+    scene = withAlphaMask(std::move(scene), stripes);
     const LightResult exact = truth(scene, size);
     EXPECT_LE(shareOfDifferentPixels(exact, render("hard", scene, size), 0.5f), 0.02);
     // And the holes matter.

@@ -324,13 +324,9 @@ TEST(MapCameras, SteadyWindowsHoldAllThatIsWantedAndLittleMore) {
 
 /// Only a host can tell whether a mask's texels are the same as before.
 TEST_F(ShadowWidthTest, MapsOfMaskedCastersAreKeptWhileTheMaskHasTheSameRevision) {
-    Scene scene = makeBuiltin("two-boxes");
-    scene.pictures.push_back({.name = "solid", .width_px = 1, .height_px = 1, .rgba = {255, 255, 255, 255}});
-    scene.textures.push_back({.picture = int(scene.pictures.size()) - 1});
-    for (Material& material : scene.materials) {
-        material.alpha = Material::Alpha::mask;
-        material.baseColorTexture = int(scene.textures.size()) - 1;
-    }
+    const Scene scene =
+        withAlphaMask(makeBuiltin("two-boxes"),
+                      {.name = "solid", .width_px = 1, .height_px = 1, .rgba = {255, 255, 255, 255}});
     const SceneMoment moment = scene.at(0);
     workbench().open(scene);
     workbench().scene().update(moment);

@@ -245,18 +245,12 @@ TEST_F(SmoothiesInputTest, TexturedLightsAreNearTheTruthInEachChannel) {
 
 /// Stripes of holes: what they cast is all penumbra.
 TEST_F(SmoothiesInputTest, HolesOfAlphaMasksHavePenumbrae) {
-    Scene scene = makeBuiltin("two-boxes");
-    scene.pictures.push_back(
+    Scene scene = withAlphaMask(
+        makeBuiltin("two-boxes"),
         {.name = "stripes", .width_px = 2, .height_px = 1, .rgba = {255, 255, 255, 255, 255, 255, 255, 0}});
-    scene.textures.push_back(
-        {.picture = int(scene.pictures.size()) - 1, .minFilter = 0x2600, .magFilter = 0x2600});
     for (Mesh& mesh : scene.meshes) {
         mesh.uvs.clear();
         for (const glm::vec3& p : mesh.positions) mesh.uvs.emplace_back(p.x * 2, 0.5f);
-    }
-    for (Material& material : scene.materials) {
-        material.alpha = Material::Alpha::mask;
-        material.baseColorTexture = int(scene.textures.size()) - 1;
     }
     const LightResult exact = truth(scene);
     // A hard shadow is off by 0.27; 48 taps show a penumbra in steps of 0.02, and a box has two layers of
