@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "penumbra/device.h"
+#include "src/gl/buffer.h"
 #include "src/gl/shader_library.h"
 
 namespace penumbra::gl {
@@ -95,6 +96,12 @@ Program::Program(ShaderLibrary& library, std::vector<std::string> files, std::ve
 
 void dispatchPixels(int width_px, int height_px) {
     glDispatchCompute(GLuint(width_px + 7) / 8, GLuint(height_px + 7) / 8, 1);
+}
+
+void dispatchIndirect(const Buffer& buffer, std::size_t offset_bytes) {
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer.name());
+    glDispatchComputeIndirect(GLintptr(offset_bytes));
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
 }
 
 }  // namespace penumbra::gl

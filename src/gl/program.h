@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -43,5 +44,11 @@ class Program {
 
 /// Runs the current compute program with one invocation a pixel, in groups of 8 x 8.
 void dispatchPixels(int width_px, int height_px);
+
+class Buffer;
+
+/// Runs the current compute program with as many groups as the device has written into the buffer. The caller
+/// orders it behind the writing (GL_COMMAND_BARRIER_BIT).
+void dispatchIndirect(const Buffer& buffer, std::size_t offset_bytes = 0);
 
 }  // namespace penumbra::gl

@@ -246,7 +246,6 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
         errorBound_.bindImage(1, GL_WRITE_ONLY);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, states_.name());
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, rounds_.name());
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, rounds_.name());
         glClearNamedBufferData(rounds_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
         glUniform1i(1, roundWork_);
         glUniform1i(2, turnRounds);
@@ -260,7 +259,7 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
             // Without work groups where nobody asked for the round.
             glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
             glUniform1i(0, round);
-            glDispatchComputeIndirect(GLintptr(3 * sizeof(std::uint32_t)) * round);
+            gl::dispatchIndirect(rounds_, 3 * sizeof(std::uint32_t) * std::size_t(round));
         }
         glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
     }

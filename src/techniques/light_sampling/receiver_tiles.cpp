@@ -56,7 +56,7 @@ void ReceiverTiles::findUnsettled(const ShadowInputs& inputs, const SampleCamera
     bind(unsettled_, maps);
     glUniform1f(17, float(radiusOf(inputs.light)));
     if (isKept) {
-        dispatchIndirect(redraw_, offsetof(RedrawGroups, tiles));
+        gl::dispatchIndirect(redraw_, offsetof(RedrawGroups, tiles));
     } else {
         glDispatchCompute(GLuint(across_), GLuint(down_), 1);
     }

@@ -53,12 +53,6 @@ void bindInOrder(std::initializer_list<const gl::Buffer*> buffers) {
 
 }  // namespace
 
-void dispatchIndirect(const gl::Buffer& buffer, std::size_t offset_bytes) {
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer.name());
-    glDispatchComputeIndirect(GLintptr(offset_bytes));
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
-}
-
 SampleMaps::SampleMaps(Device& device)
     : device_(device.internals()),
       opaque_(device_.shaders, {vertexShader}, variant(device_)),
@@ -171,10 +165,10 @@ void SampleMaps::placeLayers(int stage, int batch, const SampleCameras& cameras,
     const gl::Buffer& tiles = needs.tiles != nullptr ? *needs.tiles : plan_;
     bindInOrder({&plan_, &slots_, &cameras_, &samples_, &tiles, &layerTaps_, &layerCameras_, &layerMasks_});
     if (needs.redraw != nullptr) {
-        dispatchIndirect(*needs.redraw, offsetof(RedrawGroups, slots));
+        gl::dispatchIndirect(*needs.redraw, offsetof(RedrawGroups, slots));
     } else {
         constexpr std::size_t countInStage = sizeof(int);
-        dispatchIndirect(plan_, std::size_t(stage) * sizeof(glm::ivec4) + countInStage);
+        gl::dispatchIndirect(plan_, std::size_t(stage) * sizeof(glm::ivec4) + countInStage);
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }

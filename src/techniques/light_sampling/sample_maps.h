@@ -18,9 +18,6 @@
 
 namespace penumbra {
 
-/// As many groups as the device has written into the buffer.
-void dispatchIndirect(const gl::Buffer& buffer, std::size_t offset_bytes);
-
 class SampleMaps {
   public:
     explicit SampleMaps(Device& device);

@@ -104,7 +104,7 @@ void SubdivisionPasses::compare(const ShadowInputs& inputs, const SampleCameras&
     if (stage == stageOfCoarse) {
         gl::dispatchPixels(bits_.width_px(), bits_.height_px());
     } else {
-        dispatchIndirect(maps.plan(), offsetof(SamplingPlan, compareGroups));
+        gl::dispatchIndirect(maps.plan(), offsetof(SamplingPlan, compareGroups));
     }
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
@@ -120,7 +120,7 @@ void SubdivisionPasses::prepareExamination(const SubdivisionOptions& options) {
 
 void SubdivisionPasses::examine(const SampleMaps& maps, const SubdivisionOptions& options) {
     prepareExamination(options);
-    dispatchIndirect(maps.plan(), offsetof(SamplingPlan, examineGroups));
+    gl::dispatchIndirect(maps.plan(), offsetof(SamplingPlan, examineGroups));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

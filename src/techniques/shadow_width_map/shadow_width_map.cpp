@@ -221,8 +221,7 @@ void ShadowWidthMap::findNearestEdges(const AreaLight& light) {
         glUniform1i(0, kinds_);
         glUniform1i(1, cell_px());
         glUniform1i(2, depthMap_.count());
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, listedBlocks_.name());
-        glDispatchComputeIndirect(0);
+        gl::dispatchIndirect(listedBlocks_);
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     }
     {
@@ -354,20 +353,17 @@ void ShadowWidthMap::resolveExact(const View& view, const VisibilityBuffer& out)
     nearest_.bind(4);
     if (kinds_ == 3) farthestMap_.texture().bind(5);
     cellWidths_.bind(6);
-    const auto dispatchListed = [](const gl::Program& program, const gl::Buffer& list) {
-        program.use();
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, list.name());
-        glDispatchComputeIndirect(0);
-    };
     {
         const auto pass = timers_.pass("shadow-width/penumbra");
-        dispatchListed(penumbra_[variant], penumbraPixels_);
+        penumbra_[variant].use();
+        gl::dispatchIndirect(penumbraPixels_);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
                         GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     }
     {
         const auto pass = timers_.pass("shadow-width/crowded");
-        dispatchListed(crowded_[variant], crowdedPixels_);
+        crowded_[variant].use();
+        gl::dispatchIndirect(crowdedPixels_);
     }
 }
 

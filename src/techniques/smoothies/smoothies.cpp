@@ -120,10 +120,9 @@ void Smoothies::buildSmoothies(bool distant) {
     reserve(vertexNormals_, silhouettes_.vertexCount() * sizeof(glm::ivec4), "smoothies/vertex normals");
     reserve(smoothieEdges_, cameras * silhouettes_.edgeCount() * sizeof(SmoothieEdge), "smoothies/edges");
     const auto dispatchEdges = [&] {
-        glDispatchComputeIndirect(GLintptr(SilhouetteExtractor::dispatchOffset));
+        gl::dispatchIndirect(silhouettes_.commands(), SilhouetteExtractor::dispatchOffset);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     };
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, silhouettes_.commands().name());
 
     // The normals of the silhouette's vertices.
     silhouettes_.bindEdges(0);
@@ -308,8 +307,7 @@ void Smoothies::resolve(const ShadowInputs& inputs, const VisibilityBuffer& out)
     if (out.colored()) lightProfile_.bind(5);
     glUniform1ui(3, GLuint(silhouettes_.edgeCount()));
     bindStorage(2, smoothieEdges_);
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, tiles_.name());
-    glDispatchComputeIndirect(0);
+    gl::dispatchIndirect(tiles_);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

@@ -119,8 +119,7 @@ void SoftVolumes::upsample(const VisibilityBuffer& out) {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
                     GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     upsample_.use();
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, mixedTiles_.name());
-    glDispatchComputeIndirect(0);
+    gl::dispatchIndirect(mixedTiles_);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

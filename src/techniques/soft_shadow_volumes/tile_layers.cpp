@@ -179,7 +179,6 @@ void TileLayers::resolve(const VolumeFrame& frame, const VolumeCounter& counter)
     edgeCounts_.bindImage(1, GL_WRITE_ONLY);
     bindStorage(6, states_);
     bindStorage(7, rounds_);
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, rounds_.name());
     glUniform1ui(2, GLuint(effort_.roundWork));
     for (int row = 0; row < rows; row += bandRows) {
         glClearNamedBufferSubData(rounds_.name(), GL_R32UI, 0, GLsizeiptr(lists * sizeof(GLuint)),
@@ -194,7 +193,7 @@ void TileLayers::resolve(const VolumeFrame& frame, const VolumeCounter& counter)
                 glDispatchCompute(GLuint(tiles.x), GLuint(std::min(bandRows, rows - row)), 1);
             } else {
                 // Without groups where nobody asked for the round.
-                glDispatchComputeIndirect(GLintptr(3 * sizeof(GLuint)) * round);
+                gl::dispatchIndirect(rounds_, 3 * sizeof(GLuint) * std::size_t(round));
             }
             glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
         }

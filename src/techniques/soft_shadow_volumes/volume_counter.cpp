@@ -88,8 +88,7 @@ void VolumeCounter::examineEye(const VolumeFrame& frame, Counting counting) {
     if (hasEdges) {
         safety_.use();
         silhouettes_.bindEdges(0);
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, silhouettes_.commands().name());
-        glDispatchComputeIndirect(GLintptr(SilhouetteExtractor::dispatchOffset));
+        gl::dispatchIndirect(silhouettes_.commands(), SilhouetteExtractor::dispatchOffset);
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 
