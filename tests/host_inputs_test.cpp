@@ -33,13 +33,13 @@ Error::Kind kindOfError(const std::function<void()>& call) {
 }
 
 /// A larger texture with `part` in it at (x, y) and nonsense around.
-gl::Texture framed(GLuint part, const View& view, int x_px, int y_px, GLenum format) {
+gl::Texture framed(GLuint part, const View& view, int x_px, int y_px, gl::Format format) {
     gl::Texture whole({.width_px = view.width_px + 19,
                        .height_px = view.height_px + 11,
                        .format = format,
                        .label = "host's atlas"});
     const float nonsense = 0.37f;
-    const GLenum base = format == GL_DEPTH_COMPONENT32F ? GL_DEPTH_COMPONENT : GL_RED;
+    const GLenum base = format == gl::Format::depth32f ? GL_DEPTH_COMPONENT : GL_RED;
     glClearTexImage(whole.name(), 0, base, GL_FLOAT, &nonsense);
     glCopyImageSubData(part, GL_TEXTURE_2D, 0, 0, 0, 0, whole.name(), GL_TEXTURE_2D, 0, x_px, y_px, 0,
                        view.width_px, view.height_px, 1);
@@ -50,9 +50,9 @@ TEST_F(HostInputs, PartsOfLargerTexturesAreTheSamePicture) {
     ShadowInputs inputs = drawScene();
     const Image expected = rendered(inputs);
     View& view = inputs.view;
-    const gl::Texture depth = framed(view.depthTexture, view, 7, 5, GL_DEPTH_COMPONENT32F);
-    const gl::Texture normals = framed(view.normalTexture, view, 7, 5, GL_RGBA32F);
-    const gl::Texture receivers = framed(view.receiverTexture, view, 7, 5, GL_R8);
+    const gl::Texture depth = framed(view.depthTexture, view, 7, 5, gl::Format::depth32f);
+    const gl::Texture normals = framed(view.normalTexture, view, 7, 5, gl::Format::rgba32f);
+    const gl::Texture receivers = framed(view.receiverTexture, view, 7, 5, gl::Format::r8);
     view.depthTexture = depth.name();
     view.normalTexture = normals.name();
     view.receiverTexture = receivers.name();
@@ -181,7 +181,7 @@ TEST_P(WrittenByEveryTechnique, TheHostsTextureAndNothingAroundTheRectangle) {
     VisibilityBuffer plain(device(), 61, 43);
     technique->render(inputs, plain);
     const Image expected = workbench().frame().readVisibility(plain);
-    for (const GLenum format : {GL_R32F, GL_R8}) {
+    for (const gl::Format format : {gl::Format::r32f, gl::Format::r8}) {
         for (const auto& [x_px, y_px] : {std::pair{0, 0}, std::pair{5, 3}}) {
             const gl::Texture texture({.width_px = 80, .height_px = 60, .format = format, .label = "host's"});
             const float untouched = 0.4f;
@@ -196,10 +196,11 @@ TEST_P(WrittenByEveryTechnique, TheHostsTextureAndNothingAroundTheRectangle) {
                     const bool inside = column >= 0 && column < 61 && row >= 0 && row < 43;
                     const float wanted = inside ? expected.at(column, 42 - row) : untouched;
                     // Eight bits round by half a step.
-                    wrong += std::abs(whole.at(x, y) - wanted) > (format == GL_R8 ? 0.5f / 255 + 1e-6f : 0);
+                    wrong += std::abs(whole.at(x, y) - wanted) >
+                             (format == gl::Format::r8 ? 0.5f / 255 + 1e-6f : 0);
                 }
             }
-            EXPECT_EQ(wrong, 0) << "format " << format << " at " << x_px << ", " << y_px;
+            EXPECT_EQ(wrong, 0) << "format " << GLenum(format) << " at " << x_px << ", " << y_px;
         }
     }
 }
@@ -216,8 +217,9 @@ TEST_F(HostInputs, WrongTexturesAreRefused) {
     EXPECT_EQ(broken([](View& view) { view.normalTexture = 54321; }), Error::Kind::badArgument);
     EXPECT_EQ(broken([](View& view) { view.x_px = 1; }), Error::Kind::badArgument);
     EXPECT_EQ(broken([](View& view) { view.y_px = -1; }), Error::Kind::badArgument);
-    const gl::Texture unwritable({.width_px = 8, .height_px = 8, .format = GL_RGB9_E5, .label = "t"});
-    const gl::Texture gray({.width_px = 8, .height_px = 8, .format = GL_R16F, .label = "t"});
+    const gl::Texture unwritable(
+        {.width_px = 8, .height_px = 8, .format = gl::Format(GL_RGB9_E5), .label = "t"});
+    const gl::Texture gray({.width_px = 8, .height_px = 8, .format = gl::Format::r16f, .label = "t"});
     const auto outInto = [&](GLuint texture, int size_px, bool colored) {
         return kindOfError([&] {
             VisibilityBuffer(device(), VisibilityBuffer::HostTexture{texture, 0, 0, size_px, size_px},

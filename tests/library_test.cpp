@@ -133,7 +133,7 @@ TEST_F(ConventionTest, AllDepthConventionsAgree) {
             }
             const gl::Texture texture({.width_px = depth.width_px,
                                        .height_px = depth.height_px,
-                                       .format = GL_DEPTH_COMPONENT32F,
+                                       .format = gl::Format::depth32f,
                                        .label = "host depth"});
             glTextureSubImage2D(texture.name(), 0, 0, 0, depth.width_px, depth.height_px, GL_DEPTH_COMPONENT,
                                 GL_FLOAT, converted.values.data());

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "src/gl/gl.h"
+#include "src/gl/write_order.h"
 
 namespace penumbra::gl {
 
@@ -22,15 +23,25 @@ class Buffer {
     /// Holds a copy of `bytes`.
     Buffer(std::span<const std::byte> bytes, std::string_view label);
 
+    /// Makes room for at least `size_bytes`; what was in it is lost where that takes another buffer. Grows to
+    /// the largest size asked for and stays there.
+    void reserve(std::size_t size_bytes, std::string_view label);
+
     void write(std::span<const std::byte> bytes, std::size_t offset_bytes = 0);
+    /// Every byte of the part becomes 0; a size of 0 is all that follows. Both are multiples of four.
+    void clear(std::size_t offset_bytes = 0, std::size_t size_bytes = 0);
+    void copyTo(Buffer& target, std::size_t size_bytes) const;
     /// Waits for the device. Not for use in a frame.
     void read(std::span<std::byte> bytes, std::size_t offset_bytes = 0) const;
 
     GLuint name() const { return handle_.name(); }
     std::size_t size_bytes() const { return size_bytes_; }
+    /// Kept by passes.
+    WriteRecord& record() const { return record_; }
 
   private:
     Handle<deleteBuffer> handle_;
+    mutable WriteRecord record_;
     std::size_t size_bytes_ = 0;
 };
 
@@ -41,6 +52,7 @@ class ConstantBuffer {
     explicit ConstantBuffer(std::string_view label) : buffer_(sizeof(T), label) {}
     void write(const T& value) { buffer_.write(std::as_bytes(std::span(&value, 1))); }
     void bindUniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, buffer_.name()); }
+    const Buffer& buffer() const { return buffer_; }
 
   private:
     Buffer buffer_;
@@ -52,12 +64,11 @@ class StorageArray {
   public:
     explicit StorageArray(std::string_view label) : label_(label) {}
     void write(std::span<const T> values) {
-        if (values.size_bytes() > buffer_.size_bytes() || buffer_.name() == 0) {
-            buffer_ = Buffer(values.size_bytes(), label_);
-        }
+        buffer_.reserve(values.size_bytes(), label_);
         if (!values.empty()) buffer_.write(std::as_bytes(values));
     }
     void bind(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer_.name()); }
+    const Buffer& buffer() const { return buffer_; }
 
   private:
     std::string_view label_;

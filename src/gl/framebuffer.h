@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <initializer_list>
 #include <string_view>
 
@@ -9,12 +10,14 @@
 namespace penumbra::gl {
 
 class Texture;
+struct WriteRecord;
 
 inline void deleteFramebuffer(GLuint name) {
     glDeleteFramebuffers(1, &name);
 }
 
-/// Textures to draw into. All layers of array textures are attached, so that a shader chooses with gl_Layer.
+/// Textures to draw into, which stay where they are while it lives. All layers of array textures are
+/// attached, so that a shader chooses with gl_Layer.
 class Framebuffer {
   public:
     Framebuffer() = default;
@@ -26,10 +29,14 @@ class Framebuffer {
     /// shader.
     void attachDepthLayer(const Texture& depth, int layer);
 
+    /// Whatever shaders have written to the textures is there before drawing goes on.
+    void makeVisible() const;
+
     GLuint name() const { return handle_.name(); }
 
   private:
     Handle<deleteFramebuffer> handle_;
+    std::array<WriteRecord*, 5> records_{};  ///< of its textures
 };
 
 }  // namespace penumbra::gl

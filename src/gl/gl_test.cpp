@@ -111,11 +111,15 @@ TEST_F(ReloadTest, TakesNewSourcesAndKeepsTheLastGoodProgram) {
 }
 
 TEST_F(GlTest, ImpossibleTexturesAreRefused) {
-    EXPECT_THROW(
-        Texture({.width_px = 16384, .height_px = 16384, .layers = 2048, .format = GL_RGBA32F, .label = "t"}),
-        Error);
+    EXPECT_THROW(Texture({.width_px = 16384,
+                          .height_px = 16384,
+                          .layers = 2048,
+                          .format = gl::Format::rgba32f,
+                          .label = "t"}),
+                 Error);
     // And possible ones are still made.
-    EXPECT_NE(Texture({.width_px = 16, .height_px = 16, .format = GL_RGBA32F, .label = "t"}).name(), 0u);
+    EXPECT_NE(Texture({.width_px = 16, .height_px = 16, .format = gl::Format::rgba32f, .label = "t"}).name(),
+              0u);
 }
 
 TEST_F(GlTest, IncompleteFramebuffersAreRefused) {

@@ -55,9 +55,7 @@ std::string shaderLog(GLuint shader) {
     return log;
 }
 
-Handle<deleteShader> compile(const ShaderLibrary& library, const std::string& file,
-                             const std::vector<std::string>& defines) {
-    const ShaderLibrary::Source source = library.expand(file, defines);
+Handle<deleteShader> compile(const ShaderLibrary::Source& source, const std::string& file) {
     Handle<deleteShader> shader(glCreateShader(stageOf(file)));
     const char* text = source.text.c_str();
     glShaderSource(shader.name(), 1, &text, nullptr);
@@ -75,8 +73,11 @@ Handle<deleteShader> compile(const ShaderLibrary& library, const std::string& fi
 
 void ProgramState::build(const ShaderLibrary& library) {
     Handle<deleteProgram> program(glCreateProgram());
+    std::vector<std::string> newTexts;
     for (const std::string& file : files) {
-        glAttachShader(program.name(), compile(library, file, defines).name());
+        ShaderLibrary::Source source = library.expand(file, defines);
+        glAttachShader(program.name(), compile(source, file).name());
+        newTexts.push_back(std::move(source.text));
     }
     glLinkProgram(program.name());
     GLint linked = 0;
@@ -86,10 +87,47 @@ void ProgramState::build(const ShaderLibrary& library) {
     }
     label(GL_PROGRAM, program.name(), files.back());
     handle = std::move(program);
+    texts = std::move(newTexts);
+    const bool isReload = !interface.all().empty();
+    interface = {};
+    if (isReload) prepareForPasses();
+}
+
+void ProgramState::prepareForPasses() {
+    if (!interface.all().empty()) return;
+    const auto vertexStage =
+        std::ranges::find_if(files, [](const std::string& file) { return file.ends_with(".vert.glsl"); });
+    interface = ProgramInterface(handle.name(), texts,
+                                 vertexStage == files.end() ? -1 : int(vertexStage - files.begin()));
+    if (const ProgramResource* const block = interface.find("Constants");
+        block != nullptr && block->isActive) {
+        constants.reserve(block->size_bytes, "constants");
+        lastConstants.clear();
+    }
+    if (vertexStage == files.end()) return;
+    if (vertices.name() == 0) vertices = makeFloatVertexArray();
+    for (const ProgramResource& input : interface.all()) {
+        if (input.kind != ProgramResource::Kind::vertexInput || !input.isActive) continue;
+        if (input.isInteger) {
+            glVertexArrayAttribIFormat(vertices.name(), input.unit, input.components, GL_INT, 0);
+        } else {
+            glVertexArrayAttribFormat(vertices.name(), input.unit, input.components, GL_FLOAT, GL_FALSE, 0);
+        }
+        glVertexArrayAttribBinding(vertices.name(), input.unit, input.unit);
+    }
+}
+
+void ProgramState::writeConstants(std::span<const std::byte> bytes) {
+    if (std::ranges::equal(bytes, lastConstants)) return;
+    lastConstants.assign(bytes.begin(), bytes.end());
+    constants.write(bytes);
 }
 
 Program::Program(ShaderLibrary& library, std::vector<std::string> files, std::vector<std::string> defines)
-    : state_(std::make_shared<ProgramState>(ProgramState{std::move(files), std::move(defines), {}})) {
+    : state_(std::make_shared<ProgramState>()) {
+    state_->files = std::move(files);
+    state_->defines = std::move(defines);
+    state_->order = library.order();
     state_->build(library);
     library.track(state_);
 }

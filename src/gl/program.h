@@ -3,11 +3,16 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "src/gl/buffer.h"
 #include "src/gl/gl.h"
+#include "src/gl/program_interface.h"
+#include "src/gl/vertex_array.h"
+#include "src/gl/write_order.h"
 
 namespace penumbra::gl {
 
@@ -21,10 +26,19 @@ inline void deleteProgram(GLuint name) {
 struct ProgramState {
     std::vector<std::string> files;
     std::vector<std::string> defines;
+    std::shared_ptr<WriteOrder> order;  ///< the library's
     Handle<deleteProgram> handle;
+    std::vector<std::string> texts;  ///< expanded, one a stage
+    ProgramInterface interface;
+    VertexArrayHandle vertices;  ///< of programs that draw
+    Buffer constants;            ///< the uniform block `Constants`, if there is one
+    std::vector<std::byte> lastConstants;
 
     /// Compiles and links; keeps the last good program and throws Error::Kind::shader if that fails.
     void build(const ShaderLibrary& library);
+    /// What passes need; once.
+    void prepareForPasses();
+    void writeConstants(std::span<const std::byte> bytes);
 };
 
 /// A linked program. The stage of each file follows from its name: `.vert.glsl`, `.frag.glsl`, `.comp.glsl`.
@@ -37,6 +51,7 @@ class Program {
 
     void use() const { glUseProgram(name()); }
     GLuint name() const { return state_->handle.name(); }
+    ProgramState& state() const { return *state_; }
 
   private:
     std::shared_ptr<ProgramState> state_;

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "src/gl/write_order.h"
+
 namespace penumbra::gl {
 
 struct ProgramState;
@@ -23,6 +25,9 @@ class ShaderLibrary {
   public:
     /// `sourceRoot` empty: the embedded texts; else files beneath it.
     explicit ShaderLibrary(std::filesystem::path sourceRoot) : sourceRoot_(std::move(sourceRoot)) {}
+
+    /// Of all that is done with its programs.
+    const std::shared_ptr<WriteOrder>& order() const { return order_; }
 
     /// Adds a target's files. Their storage must outlive the library (they are in the binary).
     void add(std::span<const EmbeddedShader> shaders);
@@ -51,6 +56,7 @@ class ShaderLibrary {
     std::filesystem::path sourceRoot_;
     std::vector<EmbeddedShader> embedded_;
     std::vector<std::weak_ptr<ProgramState>> programs_;
+    std::shared_ptr<WriteOrder> order_ = std::make_shared<WriteOrder>();
 };
 
 }  // namespace penumbra::gl

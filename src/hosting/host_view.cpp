@@ -125,14 +125,14 @@ View HostView::prepare(const View& view) {
     shift.z = error * (view.depth.reversed ? 1 : -1) *
               (view.depth.range == DepthConvention::Range::minusOneToOne ? 2 : 1);
     if (shift != glm::dvec3(0)) plain.clipFromView = shifted(view.clipFromView, shift);
-    plain.depthTexture = copied(view.depthTexture, depth_, GL_R32F, view);
-    plain.normalTexture = copied(view.normalTexture, normals_, GL_RGBA32F, view);
-    plain.receiverTexture = copied(view.receiverTexture, receivers_, GL_R8, view);
+    plain.depthTexture = copied(view.depthTexture, depth_, gl::Format::r32f, view);
+    plain.normalTexture = copied(view.normalTexture, normals_, gl::Format::rgba32f, view);
+    plain.receiverTexture = copied(view.receiverTexture, receivers_, gl::Format::r8, view);
     plain.x_px = plain.y_px = plain.sample = 0;
     return plain;
 }
 
-GLuint HostView::copied(GLuint texture, gl::Texture& copy, GLenum format, const View& view) {
+GLuint HostView::copied(GLuint texture, gl::Texture& copy, gl::Format format, const View& view) {
     if (texture == 0) return 0;
     const bool multisampled = isMultisampled(texture);
     const glm::ivec2 corner_px(view.x_px, view.y_px), size_px(view.width_px, view.height_px);
@@ -144,7 +144,7 @@ GLuint HostView::copied(GLuint texture, gl::Texture& copy, GLenum format, const 
         copy = gl::Texture(
             {.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = "host's view"});
     }
-    copy_->run({texture, corner_px, multisampled, view.sample}, {copy.name(), glm::ivec2(0), format},
+    copy_->run({{.name = texture}, corner_px, multisampled, view.sample}, {copy.ref(), glm::ivec2(0)},
                size_px);
     return copy.name();
 }

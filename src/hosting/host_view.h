@@ -41,7 +41,7 @@ class HostView {
     View prepare(const View& view);
 
   private:
-    GLuint copied(GLuint texture, gl::Texture& copy, GLenum format, const View& view);
+    GLuint copied(GLuint texture, gl::Texture& copy, gl::Format format, const View& view);
     glm::dvec2 samplePlace(const View& view);
 
     Device::Internals& device_;

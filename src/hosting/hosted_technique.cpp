@@ -2,6 +2,7 @@
 #include "src/hosting/hosted_technique.h"
 
 #include "src/hosting/host_scope.h"
+#include "src/techniques/common/view_constants.h"
 #include "src/techniques/common/visibility_internals.h"
 
 namespace penumbra {
@@ -21,8 +22,7 @@ void HostedTechnique::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
     technique_->render({view_.prepare(inputs.view), inputs.light, inputs.casters}, written);
     deliver(written, out);
     // Whatever the host does with it next.
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                    GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+    device_.internals().shaders.order()->makeAllVisible();
 }
 
 VisibilityBuffer& HostedTechnique::plain(VisibilityBuffer& out) {
@@ -38,7 +38,12 @@ void HostedTechnique::deliver(const VisibilityBuffer& written, const VisibilityB
     if (&written == &out) return;
     if (!copy_) copy_.emplace(device_.internals());
     const VisibilityBuffer::HostTexture& host = out.internals().host;
-    copy_->run({.texture = written.texture()}, {host.texture, {host.x_px, host.y_px}, out.internals().format},
+    copy_->run({.texture = imageOf(written)},
+               {{.name = host.texture,
+                 .format = gl::Format(out.internals().format),
+                 .isLayered = false,
+                 .record = &out.internals().written},
+                {host.x_px, host.y_px}},
                {host.width_px, host.height_px});
 }
 

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "src/device_internals.h"
+#include "src/gl/texture.h"
 
 namespace penumbra {
 
@@ -14,15 +15,14 @@ class TextureCopy {
     explicit TextureCopy(Device::Internals& device);
 
     struct Source {
-        GLuint texture = 0;
+        gl::TextureRef texture;
         glm::ivec2 corner_px{0};
         bool multisampled = false;
         int sample = 0;
     };
     struct Target {
-        GLuint texture = 0;
+        gl::TextureRef texture;  ///< its record says that it was written
         glm::ivec2 corner_px{0};
-        GLenum format = 0;
     };
     void run(const Source& source, const Target& target, const glm::ivec2& size_px) const;
 

@@ -28,10 +28,13 @@ TEST(DeviceMemory, CountsWhatIsMade) {
     const std::size_t before_bytes = memoryInUse_bytes();
     {
         const gl::Buffer buffer(1000, "a buffer");
-        const gl::Texture texture(
-            {.width_px = 16, .height_px = 8, .layers = 3, .format = GL_RGBA16F, .label = "a texture"});
+        const gl::Texture texture({.width_px = 16,
+                                   .height_px = 8,
+                                   .layers = 3,
+                                   .format = gl::Format::rgba16f,
+                                   .label = "a texture"});
         const gl::Texture depth(
-            {.width_px = 8, .height_px = 8, .levels = 2, .format = GL_DEPTH_COMPONENT32F, .label = "depth"});
+            {.width_px = 8, .height_px = 8, .levels = 2, .format = gl::Format::depth32f, .label = "depth"});
         EXPECT_EQ(memoryInUse_bytes() - before_bytes, 1000u + 16 * 8 * 3 * 8 + (64 + 16) * 4);
     }
     EXPECT_EQ(memoryInUse_bytes(), before_bytes);

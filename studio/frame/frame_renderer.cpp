@@ -38,14 +38,14 @@ FrameRenderer::FrameRenderer(Device& device, std::filesystem::path shaderSourceD
 
 void FrameRenderer::resize(int width_px, int height_px) {
     if (display_.width_px() == width_px && display_.height_px() == height_px && display_.name() != 0) return;
-    const auto make = [&](GLenum format, std::string_view label) {
+    const auto make = [&](gl::Format format, std::string_view label) {
         return gl::Texture({.width_px = width_px, .height_px = height_px, .format = format, .label = label});
     };
-    radiance_ = make(GL_RGBA32F, "radiance");
-    unshadowed_ = make(GL_RGBA32F, "unshadowed radiance");
-    illuminance_ = make(GL_R32F, "illuminance");
-    reach_ = make(GL_R32F, "unshadowed irradiance of one light");
-    display_ = make(GL_RGBA8, "display");
+    radiance_ = make(gl::Format::rgba32f, "radiance");
+    unshadowed_ = make(gl::Format::rgba32f, "unshadowed radiance");
+    illuminance_ = make(gl::Format::r32f, "illuminance");
+    reach_ = make(gl::Format::r32f, "unshadowed irradiance of one light");
+    display_ = make(gl::Format::rgba8, "display");
 }
 
 void FrameRenderer::draw(const GpuScene& scene, const SceneMoment& moment, const Camera& camera, int width_px,

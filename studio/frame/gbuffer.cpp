@@ -24,14 +24,14 @@ GBuffer::GBuffer(gl::ShaderLibrary& shaders)
 
 void GBuffer::resize(int width_px, int height_px) {
     if (view_.width_px == width_px && view_.height_px == height_px) return;
-    const auto make = [&](GLenum format, std::string_view label) {
+    const auto make = [&](gl::Format format, std::string_view label) {
         return gl::Texture({.width_px = width_px, .height_px = height_px, .format = format, .label = label});
     };
-    depth_ = make(GL_DEPTH_COMPONENT32F, "G-buffer depth");
-    geometricNormals_ = make(GL_RGBA32F, "G-buffer geometric normals");
-    shadingNormals_ = make(GL_RGBA16F, "G-buffer shading normals");
-    albedo_ = make(GL_RGBA16F, "G-buffer albedo");
-    receivers_ = make(GL_R8, "G-buffer receivers");
+    depth_ = make(gl::Format::depth32f, "G-buffer depth");
+    geometricNormals_ = make(gl::Format::rgba32f, "G-buffer geometric normals");
+    shadingNormals_ = make(gl::Format::rgba16f, "G-buffer shading normals");
+    albedo_ = make(gl::Format::rgba16f, "G-buffer albedo");
+    receivers_ = make(gl::Format::r8, "G-buffer receivers");
     framebuffer_ =
         gl::Framebuffer({&geometricNormals_, &shadingNormals_, &albedo_, &receivers_}, &depth_, "G-buffer");
     view_.width_px = width_px;
@@ -47,9 +47,10 @@ void GBuffer::render(const GpuScene& scene, const CameraView& camera, int width_
     view_.viewFromWorld = toPenumbra(glm::mat4(camera.viewFromWorld));
     view_.clipFromView = toPenumbra(glm::mat4(camera.clipFromView));
 
-    gl::beginPass(
-        framebuffer_.name(),
-        {.width_px = width_px, .height_px = height_px, .depthTest = GL_GREATER, .depthWrite = true});
+    gl::beginPass(framebuffer_.name(), {.width_px = width_px,
+                                        .height_px = height_px,
+                                        .depthTest = gl::Compare::greater,
+                                        .depthWrite = true});
     constexpr std::array<float, 4> zero{};
     for (GLint buffer = 0; buffer < 4; ++buffer) {
         glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, buffer, zero.data());

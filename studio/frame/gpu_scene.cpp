@@ -15,7 +15,7 @@ gl::Texture uploadPicture(const Picture& picture, std::span<const std::uint8_t> 
     gl::Texture result({.width_px = picture.width_px,
                         .height_px = picture.height_px,
                         .levels = int(std::bit_width(unsigned(largest))),
-                        .format = GL_SRGB8_ALPHA8,
+                        .format = gl::Format::rgba8srgb,
                         .label = picture.name});
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage2D(result.name(), 0, 0, 0, picture.width_px, picture.height_px, GL_RGBA,

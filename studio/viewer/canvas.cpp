@@ -9,7 +9,7 @@ namespace penumbra::studio::viewer {
 namespace {
 
 gl::Texture mapTexture(const ColorTable& table, std::string_view label) {
-    gl::Texture texture({.width_px = 256, .format = GL_RGBA8, .label = label});
+    gl::Texture texture({.width_px = 256, .format = gl::Format::rgba8, .label = label});
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage2D(texture.name(), 0, 0, 0, 256, 1, GL_RGBA, GL_UNSIGNED_BYTE, table.data());
     return texture;
@@ -38,14 +38,14 @@ Canvas::Canvas(gl::ShaderLibrary& shaders)
       inspectedRange_(2 * sizeof(std::uint32_t), "viewer/inspected range"),
       orderedMap_(mapTexture(orderedColors(), "viewer/ordered colours")),
       divergingMap_(mapTexture(divergingColors(), "viewer/diverging colours")),
-      nothing_({.format = GL_RGBA8, .label = "viewer/nothing"}) {}
+      nothing_({.format = gl::Format::rgba8, .label = "viewer/nothing"}) {}
 
 void Canvas::resize(int width_px, int height_px) {
     if (texture_.width_px() == width_px && texture_.height_px() == height_px && texture_.name() != 0) return;
     texture_ = gl::Texture({.width_px = width_px,
                             .height_px = height_px,
-                            .format = GL_RGBA8,
-                            .filter = GL_LINEAR,
+                            .format = gl::Format::rgba8,
+                            .filter = gl::Filter::linear,
                             .label = "viewer/canvas"});
 }
 

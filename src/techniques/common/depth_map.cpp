@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "src/gl/raster_state.h"
-
 namespace penumbra {
 namespace {
 
@@ -26,13 +24,11 @@ DepthMap::DepthMap(Device& device)
     : device_(device.internals()),
       opaque_(device_.shaders, {vertexShader}, variant(device_, false)),
       masked_(device_.shaders, {vertexShader, fragmentShader}, variant(device_, true)),
-      vertices_(gl::makeFloatVertexArray(3, 2)),
       cameras_("light cameras"),
       casters_("depth map casters"),
-      layerLists_("depth map layers") {}
+      instances_("depth map instances") {}
 
 void DepthMap::allocate(int mapSize_px, int layers) {
-    if (maps_.width_px() == mapSize_px && maps_.layers() >= layers) return;
     if (mapSize_px > device_.maxTextureSize_px || layers > device_.maxLayers) {
         throw Error(Error::Kind::badArgument, std::to_string(layers) + " maps of " +
                                                   std::to_string(mapSize_px) +
@@ -40,13 +36,13 @@ void DepthMap::allocate(int mapSize_px, int layers) {
                                                   std::to_string(device_.maxLayers) + " maps, " +
                                                   std::to_string(device_.maxTextureSize_px) + " texels)");
     }
-    maps_ = {};  // freed first, so that the two need not fit together
-    maps_ = gl::Texture({.width_px = mapSize_px,
-                         .height_px = mapSize_px,
-                         .layers = layers,
-                         .format = GL_DEPTH_COMPONENT32F,
-                         .label = "depth maps"});
-    framebuffer_ = gl::Framebuffer({}, &maps_, "depth maps");
+    if (maps_.fit({.width_px = mapSize_px,
+                   .height_px = mapSize_px,
+                   .layers = layers,
+                   .format = gl::Format::depth32f,
+                   .label = "depth maps"})) {
+        framebuffer_ = gl::Framebuffer({}, &maps_, "depth maps");
+    }
 }
 
 void DepthMap::render(std::span<const Caster> casters, const LightSpaceScene& scene,
@@ -59,70 +55,79 @@ void DepthMap::render(std::span<const Caster> casters, const LightSpaceScene& sc
     for (const LightCamera& camera : cameras) cameraConstants.push_back(camera.constants(mapSize_px));
     cameras_.write(cameraConstants);
 
-    // Which layers each caster is drawn into, list after list.
+    // An instance for each layer that a caster is drawn into, caster after caster.
     std::pmr::vector<CasterConstants> casterConstants(memory);
-    std::pmr::vector<int> layers(memory);
-    std::pmr::vector<int> listEnds(memory);
+    std::pmr::vector<glm::ivec2> instances(memory);
+    std::pmr::vector<std::size_t> ends(memory);
     for (std::size_t i = 0; i < casters.size(); ++i) {
         const AlphaMask& mask = casters[i].alphaMask;
-        casterConstants.push_back({scene.lightFromMesh[i], {mask.factor, mask.cutoff, 0, 0}});
+        casterConstants.push_back({.lightFromMesh = scene.lightFromMesh[i],
+                                   .alphaFactor = mask.factor,
+                                   .alphaCutoff = mask.cutoff});
         for (int layer = 0; casters[i].casts && layer < count_; ++layer) {
-            if (cameras[std::size_t(layer)].mightSee(scene.boxes[i])) layers.push_back(layer);
+            if (cameras[std::size_t(layer)].mightSee(scene.boxes[i])) instances.emplace_back(layer, int(i));
         }
-        listEnds.push_back(int(layers.size()));
+        ends.push_back(instances.size());
     }
     casters_.write(casterConstants);
-    layerLists_.write(layers);
+    instances_.write(instances);
 
-    const bool isNearest = surface == Surface::nearest;
-    const GLenum culled = surface == Surface::farthestBack ? GL_FRONT : GL_BACK;
-    gl::beginPass(framebuffer_.name(), {.width_px = mapSize_px,
-                                        .height_px = mapSize_px,
-                                        .depthTest = GLenum(isNearest ? GL_GREATER : GL_LESS),
-                                        .depthWrite = true,
-                                        .cull = isNearest ? GLenum(GL_NONE) : culled,
-                                        .colorWrite = false});
-    glBindVertexArray(vertices_.name());
-    cameras_.bind(0);
-    casters_.bind(1);
-    layerLists_.bind(2);
-    const auto drawAll = [&](int onlyLayer) {
-        int first = 0;
-        for (std::size_t i = 0; i < casters.size(); first = listEnds[i++]) {
-            const auto begin = layers.begin() + first, end = layers.begin() + listEnds[i];
-            const auto it = onlyLayer < 0 ? begin : std::find(begin, end, onlyLayer);
-            if (it == end) continue;
-            const gl::Program& program = casters[i].alphaMask.texture != 0 ? masked_ : opaque_;
-            program.use();
-            // Mirrored, a mesh shows its back as its front.
-            const bool isMirrored = glm::determinant(scene.lightFromMesh[i]) < 0;
-            if (!isNearest) glCullFace(isMirrored ? GL_FRONT + GL_BACK - culled : culled);
-            glUniform1i(0, int(i));
-            glUniform1i(1, int(it - layers.begin()));
-            draw(casters[i], onlyLayer < 0 ? int(end - begin) : 1);
-        }
-    };
-    const float background = isNearest ? 0 : 1;
     if (device_.layerFromVertexShader) {
-        glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &background);
-        drawAll(-1);
-    } else {
-        for (int layer = 0; layer < count_; ++layer) {
-            framebuffer_.attachDepthLayer(maps_, layer);
-            glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &background);
-            drawAll(layer);
+        draw(casters, scene, surface, [&](std::size_t i) {
+            const std::size_t first = i == 0 ? 0 : ends[i - 1];
+            return Instances{first, ends[i] - first};
+        });
+        return;
+    }
+    for (int layer = 0; layer < count_; ++layer) {
+        framebuffer_.attachDepthLayer(maps_, layer);
+        draw(casters, scene, surface, [&](std::size_t i) {
+            const auto begin = instances.begin() + std::ptrdiff_t(i == 0 ? 0 : ends[i - 1]);
+            const auto end = instances.begin() + std::ptrdiff_t(ends[i]);
+            const auto it = std::find(begin, end, glm::ivec2(layer, int(i)));
+            return Instances{std::size_t(it - instances.begin()), it == end ? 0u : 1u};
+        });
+    }
+}
+
+template <typename InstancesOf>
+void DepthMap::draw(std::span<const Caster> casters, const LightSpaceScene& scene, Surface surface,
+                    InstancesOf instancesOf) const {
+    const bool isNearest = surface == Surface::nearest;
+    gl::RasterState state{.width_px = maps_.width_px(),
+                          .height_px = maps_.height_px(),
+                          .depthTest = isNearest ? gl::Compare::greater : gl::Compare::less,
+                          .depthWrite = true,
+                          .colorWrite = false};
+    for (const bool hasHoles : {false, true}) {
+        gl::Pass pass(hasHoles ? masked_ : opaque_);
+        pass.bind("Cameras", cameras_).bind("Casters", casters_);
+        pass.vertices("layerAndCaster", instances_.buffer(), {.perInstance = true});
+        pass.into(framebuffer_, state);
+        if (!hasHoles) pass.clearDepth(isNearest ? 0 : 1);
+        for (std::size_t i = 0; i < casters.size(); ++i) {
+            const auto [first, count] = instancesOf(i);
+            if (count == 0 || (casters[i].alphaMask.texture != 0) != hasHoles) continue;
+            if (!isNearest) {
+                // Mirrored, a mesh shows its back as its front.
+                const bool isMirrored = glm::determinant(scene.lightFromMesh[i]) < 0;
+                state.cull =
+                    (surface == Surface::farthestBack) != isMirrored ? gl::Cull::front : gl::Cull::back;
+                pass.state(state);
+            }
+            const Mesh& mesh = *casters[i].mesh;
+            pass.vertices("posMesh", {.buffer = mesh.positionBuffer()}).indices(mesh.indexBuffer());
+            if (hasHoles) {
+                pass.vertices("uvMesh", {.buffer = mesh.uvBuffer()});
+                pass.bind("alphaTexture", gl::TextureRef{.name = casters[i].alphaMask.texture});
+            }
+            pass.drawIndexed(mesh.indices().size(), count, first);
         }
     }
 }
 
-void DepthMap::draw(const Caster& caster, int instances) const {
-    const Mesh& mesh = *caster.mesh;
-    gl::attachFloats(vertices_.name(), 0, mesh.positionBuffer(), 3);
-    gl::attachFloats(vertices_.name(), 1, mesh.uvBuffer(), 2);
-    glVertexArrayElementBuffer(vertices_.name(), mesh.indexBuffer());
-    if (caster.alphaMask.texture != 0) glBindTextureUnit(0, caster.alphaMask.texture);
-    glDrawElementsInstanced(GL_TRIANGLES, GLsizei(mesh.indices().size()), GL_UNSIGNED_INT, nullptr,
-                            instances);
+void DepthMap::bindTo(gl::Pass& pass) const {
+    pass.bind("depthMaps", maps_).bind("LightCameras", cameras_);
 }
 
 void DepthMap::bind(unsigned unit, unsigned block) const {

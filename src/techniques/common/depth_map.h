@@ -6,9 +6,8 @@
 #include "src/device_internals.h"
 #include "src/gl/buffer.h"
 #include "src/gl/framebuffer.h"
-#include "src/gl/program.h"
+#include "src/gl/pass.h"
 #include "src/gl/texture.h"
-#include "src/gl/vertex_array.h"
 #include "src/techniques/common/depth_map_io.h"
 #include "src/techniques/common/light_camera.h"
 
@@ -34,22 +33,28 @@ class DepthMap {
 
     /// Binds the maps to texture unit `unit` and their cameras to storage block `block`.
     void bind(unsigned unit, unsigned block) const;
+    void bindTo(gl::Pass& pass) const;
 
     const gl::Texture& texture() const { return maps_; }
     int count() const { return count_; }
 
   private:
     void allocate(int mapSize_px, int layers);
-    void draw(const Caster& caster, int instances) const;
+    /// Of a caster, in `instances_`.
+    struct Instances {
+        std::size_t first, count;
+    };
+    template <typename InstancesOf>
+    void draw(std::span<const Caster> casters, const LightSpaceScene& scene, Surface surface,
+              InstancesOf instancesOf) const;
 
     Device::Internals& device_;
     gl::Program opaque_, masked_;
-    gl::VertexArrayHandle vertices_;
     gl::Texture maps_;
     gl::Framebuffer framebuffer_;
     gl::StorageArray<LightCameraConstants> cameras_;
     gl::StorageArray<CasterConstants> casters_;
-    gl::StorageArray<int> layerLists_;
+    gl::StorageArray<glm::ivec2> instances_;  ///< layer and caster
     int count_ = 0;
 };
 

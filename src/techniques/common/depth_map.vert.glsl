@@ -7,26 +7,24 @@
 #include "src/techniques/common/depth_map_io.h"
 #include "src/techniques/common/light_camera_io.h"
 
-layout(std430, binding = 0) readonly buffer Cameras { LightCameraConstants cameras[]; };
-layout(std430, binding = 1) readonly buffer Casters { CasterConstants casters[]; };
-layout(std430, binding = 2) readonly buffer LayerLists { int layerLists[]; };
+layout(std430) readonly buffer Cameras { LightCameraConstants cameras[]; };
+layout(std430) readonly buffer Casters { CasterConstants casters[]; };
 
-layout(location = 0) uniform int caster;
-layout(location = 1) uniform int firstInLayerLists;
-
-layout(location = 0) in vec3 posMesh;
+in vec3 posMesh;
+in ivec2 layerAndCaster;  // one an instance
 #ifdef MASKED
-layout(location = 1) in vec2 uvMesh;
+in vec2 uvMesh;
 layout(location = 0) out vec2 uv;
-layout(location = 1) flat out vec2 alpha;
+layout(location = 1) flat out vec2 alpha;  // factor, cutoff
 #endif
 
 void main() {
-    int layer = layerLists[firstInLayerLists + gl_InstanceID];
-    gl_Position = cameras[layer].clipFromLight * (casters[caster].lightFromMesh * vec4(posMesh, 1.0));
+    int layer = layerAndCaster.x;
+    CasterConstants caster = casters[layerAndCaster.y];
+    gl_Position = cameras[layer].clipFromLight * (caster.lightFromMesh * vec4(posMesh, 1.0));
 #ifdef MASKED
     uv = uvMesh;
-    alpha = casters[caster].alpha.xy;
+    alpha = vec2(caster.alphaFactor, caster.alphaCutoff);
 #endif
 #ifndef LAYER_BY_LAYER
     gl_Layer = layer;

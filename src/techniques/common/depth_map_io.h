@@ -3,16 +3,17 @@
 #ifndef PENUMBRA_DEPTH_MAP_IO_H
 #define PENUMBRA_DEPTH_MAP_IO_H
 
+#include "src/gl/shared_types.h"
+
 #ifdef __cplusplus
-#include <glm/glm.hpp>
 namespace penumbra {
-using glm::mat4;
-using glm::vec4;
 #endif
 
-struct CasterConstants {
+SHARED_STRUCT CasterConstants {
     mat4 lightFromMesh;
-    vec4 alpha;  // x: factor; y: cutoff
+    float alphaFactor;  // of casters with holes
+    float alphaCutoff;
+    float unused0, unused1;
 };
 
 #ifdef __cplusplus

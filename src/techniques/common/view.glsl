@@ -13,18 +13,18 @@ struct Receiver {
     vec3 normalLight;  // geometric, unit length, on the camera's side
 };
 
-bool isBackground(float depth) { return depth == view.nearnessFromDepth.z; }
+bool isBackground(float depth) { return depth == view.backgroundDepth; }
 
 // Nearness is 0 at the background, as reversed depth is. A depth of the other kind lies close below 1, and taking it from 1
 // is exact; in the matrix's own sums 1 would cancel out only after it has rounded them, by as many metres as a whole step
 // of the depth is wide.
 vec3 positionLight(vec2 pixel, float depth) {
-    vec2 ndc = 2.0 * (pixel + 0.5) / vec2(view.size_px.xy) - 1.0;
-    vec4 pos = view.lightFromPicture * vec4(ndc, depth * view.nearnessFromDepth.x + view.nearnessFromDepth.y, 1.0);
+    vec2 ndc = 2.0 * (pixel + 0.5) / vec2(view.size_px) - 1.0;
+    vec4 pos = view.lightFromPicture * vec4(ndc, depth * view.nearnessScale + view.nearnessOffset, 1.0);
     return pos.xyz / pos.w;
 }
 
-float depthAt(ivec2 pixel) { return texelFetch(viewDepth, clamp(pixel, ivec2(0), view.size_px.xy - 1), 0).r; }
+float depthAt(ivec2 pixel) { return texelFetch(viewDepth, clamp(pixel, ivec2(0), view.size_px - 1), 0).r; }
 
 // The step to a neighbour along `axis`, on the side whose next two pixels lie in line with this one: the same face, most
 // likely. (Depths of a plane are linear over the picture, in perspective too.) Between equals, the nearer.
@@ -34,7 +34,7 @@ vec3 tangentLight(ivec2 pixel, float depth, vec3 pos, ivec2 axis) {
     float bendBefore = abs(2.0 * depthBefore - depthAt(before - axis) - depth);
     float bendAfter = abs(2.0 * depthAfter - depthAt(after + axis) - depth);
     bool useAfter = any(lessThan(before, ivec2(0))) ||
-                    (all(lessThan(after, view.size_px.xy)) &&
+                    (all(lessThan(after, view.size_px)) &&
                      (bendAfter == bendBefore ? abs(depthAfter - depth) < abs(depthBefore - depth)
                                               : bendAfter < bendBefore));
     return useAfter ? positionLight(after, depthAfter) - pos : pos - positionLight(before, depthBefore);
@@ -45,13 +45,13 @@ vec3 tangentLight(ivec2 pixel, float depth, vec3 pos, ivec2 axis) {
 #ifdef WITH_NORMALS
 const bool hasNormals = true;
 #else
-bool hasNormals = view.size_px.z == 1;
+bool hasNormals = view.hasNormals;
 #endif
 
 // False where the pixel shows no surface, or one that receives no shadow: its visibility is 1.
 bool isReceiver(ivec2 pixel) {
     return !isBackground(texelFetch(viewDepth, pixel, 0).r) &&
-           (view.size_px.w == 0 || texelFetch(viewReceivers, pixel, 0).r >= 0.5);
+           (!view.hasReceiverMask || texelFetch(viewReceivers, pixel, 0).r >= 0.5);
 }
 
 // The same, and where and what it is.

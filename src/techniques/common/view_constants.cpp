@@ -5,6 +5,7 @@
 #include <string>
 
 #include "src/techniques/common/glm_types.h"
+#include "src/techniques/common/visibility_internals.h"
 
 namespace penumbra {
 namespace {
@@ -79,29 +80,51 @@ glm::dmat4 lightFromWorld(const ShadowInputs& inputs) {
     return glm::inverse(worldFromLight);
 }
 
-bool isOneSided(const AreaLight& light) {
-    return (light.shape == LightShape::rect || light.shape == LightShape::disk) && !light.twoSided;
-}
-
-void ViewBinding::bind(const View& view, const glm::dmat4& lightFromWorldMatrix) {
+void ViewBinding::fill(const View& view, const glm::dmat4& lightFromWorldMatrix) {
     const bool zeroToOne = view.depth.range == DepthConvention::Range::zeroToOne;
     const glm::dmat4 clipFromWorld = toGlm(view.clipFromView) * toGlm(view.viewFromWorld);
     // Nearness is depth, or what it lacks to 1; clip-space z is depth as it is, or from -1.
-    const double depthScale = view.depth.reversed ? 1 : -1, depthOffset = view.depth.reversed ? 0 : 1;
-    const double zScale = zeroToOne ? 1 : 2, zOffset = zeroToOne ? 0 : -1;
+    const float depthScale = view.depth.reversed ? 1 : -1, depthOffset = view.depth.reversed ? 0 : 1;
+    const float zScale = zeroToOne ? 1 : 2, zOffset = zeroToOne ? 0 : -1;
     glm::dmat4 clipFromPicture(1);
     clipFromPicture[2][2] = zScale * depthScale;
     clipFromPicture[3][2] = zScale * depthOffset + zOffset;
     constants_.write({
         .lightFromPicture = lightFromWorldMatrix * glm::inverse(clipFromWorld) * clipFromPicture,
         .lightFromWorld = lightFromWorldMatrix,
-        .nearnessFromDepth = {depthScale, depthOffset, view.depth.reversed ? 0 : 1, 0},
-        .size_px = {view.width_px, view.height_px, view.normalTexture != 0, view.receiverTexture != 0},
+        .nearnessScale = depthScale,
+        .nearnessOffset = depthOffset,
+        .backgroundDepth = view.depth.reversed ? 0.0f : 1.0f,
+        .hasNormals = view.normalTexture != 0,
+        .size_px = {view.width_px, view.height_px},
+        .hasReceiverMask = view.receiverTexture != 0,
     });
+    depth_ = view.depthTexture;
+    normals_ = view.normalTexture;
+    receivers_ = view.receiverTexture;
+}
+
+void ViewBinding::bindTo(gl::Pass& pass) const {
+    pass.bind("ViewBlock", constants_)
+        .bind("viewDepth", gl::TextureRef{.name = depth_})
+        .bind("viewNormals", gl::TextureRef{.name = normals_})
+        .bind("viewReceivers", gl::TextureRef{.name = receivers_});
+}
+
+void ViewBinding::bind(const View& view, const glm::dmat4& lightFromWorldMatrix) {
+    fill(view, lightFromWorldMatrix);
     constants_.bindUniform(0);
     glBindTextureUnit(0, view.depthTexture);
     glBindTextureUnit(1, view.normalTexture);
     glBindTextureUnit(2, view.receiverTexture);
+}
+
+gl::TextureRef imageOf(const VisibilityBuffer& out) {
+    VisibilityBuffer::Internals& internals = out.internals();
+    return {.name = out.texture(),
+            .format = out.colored() ? gl::Format::rgba16f : gl::Format::r32f,
+            .isLayered = false,
+            .record = &internals.written};
 }
 
 void bindVisibility(const VisibilityBuffer& out, unsigned unit) {

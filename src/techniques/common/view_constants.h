@@ -3,7 +3,9 @@
 
 #include "penumbra/technique.h"
 #include "src/gl/buffer.h"
+#include "src/gl/pass.h"
 #include "src/gl/pass_timers.h"
+#include "src/techniques/common/light_constants.h"
 #include "src/techniques/common/view_io.h"
 
 namespace penumbra {
@@ -16,19 +18,23 @@ void checkInputs(const ShadowInputs& inputs, const VisibilityBuffer& out);
 /// origin in the middle of the casters.
 glm::dmat4 lightFromWorld(const ShadowInputs& inputs);
 
-/// Rect and disk lights that emit along -Z alone.
-bool isOneSided(const AreaLight& light);
-
 /// Gives shaders the receivers in light space (see view.glsl).
 class ViewBinding {
   public:
     ViewBinding() : constants_("view constants") {}
+    void fill(const View& view, const glm::dmat4& lightFromWorld);
+    void bindTo(gl::Pass& pass) const;
+
     /// Fills and binds uniform block 0 and texture units 0 to 2.
     void bind(const View& view, const glm::dmat4& lightFromWorld);
 
   private:
     gl::ConstantBuffer<ViewConstants> constants_;
+    GLuint depth_ = 0, normals_ = 0, receivers_ = 0;
 };
+
+/// `out` as an image that passes write.
+gl::TextureRef imageOf(const VisibilityBuffer& out);
 
 /// Binds `out` as image `unit` for a compute shader to write.
 void bindVisibility(const VisibilityBuffer& out, unsigned unit);

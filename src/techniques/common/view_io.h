@@ -3,19 +3,21 @@
 #ifndef PENUMBRA_VIEW_IO_H
 #define PENUMBRA_VIEW_IO_H
 
+#include "src/gl/shared_types.h"
+
 #ifdef __cplusplus
-#include <glm/glm.hpp>
 namespace penumbra {
-using glm::ivec4;
-using glm::mat4;
-using glm::vec4;
 #endif
 
-struct ViewConstants {
-    mat4 lightFromPicture;   // from normalised x and y, and nearness
-    mat4 lightFromWorld;     // rotates normals
-    vec4 nearnessFromDepth;  // x: scale, y: offset, z: the background's depth
-    ivec4 size_px;           // xy: size; z: 1 if there are normals; w: 1 if there is a receiver mask
+SHARED_STRUCT ViewConstants {
+    mat4 lightFromPicture;  // from normalised x and y, and nearness
+    mat4 lightFromWorld;    // rotates normals
+    float nearnessScale;    // times the depth, plus
+    float nearnessOffset;   // this: nearness
+    float backgroundDepth;
+    bool32 hasNormals;
+    ivec2 size_px;
+    bool32 hasReceiverMask;
 };
 
 #ifdef __cplusplus

@@ -61,7 +61,7 @@ GLenum writableFormatOf(const VisibilityBuffer::HostTexture& host, bool colored)
 
 gl::Texture makeTexture(int width_px, int height_px, GLenum format) {
     return gl::Texture(
-        {.width_px = width_px, .height_px = height_px, .format = format, .label = "visibility"});
+        {.width_px = width_px, .height_px = height_px, .format = gl::Format(format), .label = "visibility"});
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ struct VisibilityBuffer::Internals {
     HostTexture host;  ///< the host's
     GLenum format = 0;
     bool colored = false;
+    mutable gl::WriteRecord written;
 
     /// Techniques write pixel (x, y) to texel (x, y), as bindVisibility says: anything else needs a copy.
     bool isPlain() const {

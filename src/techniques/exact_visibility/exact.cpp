@@ -155,8 +155,10 @@ void ExactVisibility::allocate(int width_px, int height_px, int rows, int rounds
     if (errorBound_.name() == 0 || errorBound_.width_px() != width_px ||
         errorBound_.height_px() != height_px) {
         errorBound_ = {};
-        errorBound_ = gl::Texture(
-            {.width_px = width_px, .height_px = height_px, .format = GL_R16F, .label = "exact/error bound"});
+        errorBound_ = gl::Texture({.width_px = width_px,
+                                   .height_px = height_px,
+                                   .format = gl::Format::r16f,
+                                   .label = "exact/error bound"});
     }
     tileCount_ = ((width_px + tile_px - 1) / tile_px) * ((height_px + tile_px - 1) / tile_px);
     const std::size_t tiles_bytes = std::size_t(tileCount_) * sizeof(glm::uvec4);

@@ -59,7 +59,7 @@ void SampleEvaluation::add(const ShadowInputs& inputs, const SampleCameras& came
                            VisibilityBuffer& out) {
     const bool byPass = options.path == EvaluationOptions::accumulation && batch.mostSlots > 1;
     if (byPass || !batch.starts || !batch.ends) {
-        const GLenum format = out.colored() ? GL_RGBA32F : GL_R32F;
+        const gl::Format format = out.colored() ? gl::Format::rgba32f : gl::Format::r32f;
         if (seen_.width_px() != out.width_px() || seen_.height_px() != out.height_px() ||
             seen_.format() != format) {
             const gl::TextureSpec spec{.width_px = out.width_px(),

@@ -12,8 +12,8 @@
 namespace penumbra {
 namespace {
 
-constexpr const char* vertexShader = "src/techniques/common/depth_map.vert.glsl";
-constexpr const char* fragmentShader = "src/techniques/common/depth_map.frag.glsl";
+constexpr const char* vertexShader = "src/techniques/light_sampling/sample_map.vert.glsl";
+constexpr const char* fragmentShader = "src/techniques/light_sampling/sample_map.frag.glsl";
 
 std::vector<std::string> variant(const Device::Internals& device, bool masked = false) {
     std::vector<std::string> defines;
@@ -70,7 +70,7 @@ void SampleMaps::allocate(int mapSize_px, int layers) {
     maps_ = gl::Texture({.width_px = mapSize_px,
                          .height_px = mapSize_px,
                          .layers = layers,
-                         .format = GL_DEPTH_COMPONENT32F,
+                         .format = gl::Format::depth32f,
                          .label = "maps of light samples"});
     framebuffer_ = gl::Framebuffer({}, &maps_, "maps of light samples");
 }
@@ -103,7 +103,9 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
         for (std::size_t j = 0; draws && j < 8; ++j) box.corners[j] = glm::vec4(glm::vec3(corners[j]), 1);
         box.draw = {draws ? glm::uint(casters[i].mesh->indices().size()) : 0u, 0, 0, 0};
         const AlphaMask& mask = casters[i].alphaMask;
-        constants_.push_back({scene.lightFromMesh[i], {mask.factor, mask.cutoff, 0, 0}});
+        constants_.push_back({.lightFromMesh = scene.lightFromMesh[i],
+                              .alphaFactor = mask.factor,
+                              .alphaCutoff = mask.cutoff});
     }
     upload<CullBox>(cullBoxes_, boxes_, "light sampling boxes");
     upload<CasterConstants>(casterConstants_, constants_, "light sampling casters");
@@ -200,14 +202,14 @@ void SampleMaps::draw(int stage, int batch, const SampleCameras& cameras, const 
         if (rounds > 1) framebuffer_.attachDepthLayer(maps_, int(round));
         // Only what is needed of the layers of this batch is cleared: what that is, the device alone may
         // know.
-        state.depthTest = GL_ALWAYS;
+        state.depthTest = gl::Compare::always;
         gl::beginPass(framebuffer_.name(), state);
         glBindVertexArray(noVertices_.name());
         clear_.use();
         const std::size_t clearing = casters_.size() * rounds + round;
         glUniform1i(1, int(device_.layerFromVertexShader ? casters_.size() * layers : clearing));
         glDrawArraysIndirect(GL_TRIANGLES, commandAt(clearing));
-        state.depthTest = GL_GREATER;
+        state.depthTest = gl::Compare::greater;
         gl::beginPass(framebuffer_.name(), state);
         glBindVertexArray(vertices_.name());
         for (std::size_t i = 0; i < casters_.size(); ++i) drawCaster(i, i * rounds + round);

@@ -15,7 +15,7 @@ std::vector<std::string> file(const char* name) {
     return {std::string("src/techniques/light_sampling/") + name};
 }
 
-void resize(gl::Texture& texture, int width_px, int height_px, GLenum format, std::string_view label) {
+void resize(gl::Texture& texture, int width_px, int height_px, gl::Format format, std::string_view label) {
     if (texture.width_px() == width_px && texture.height_px() == height_px && texture.name() != 0) return;
     texture = {};
     texture = gl::Texture({.width_px = width_px, .height_px = height_px, .format = format, .label = label});
@@ -61,7 +61,7 @@ SubdivisionPasses::SubdivisionPasses(Device& device)
 }
 
 void SubdivisionPasses::prepare(int width_px, int height_px) {
-    resize(bits_, width_px, height_px, GL_RGBA32UI, "shadow values of light samples");
+    resize(bits_, width_px, height_px, gl::Format::rgba32ui, "shadow values of light samples");
 }
 
 void SubdivisionPasses::start(const SampleMaps& maps, const SubdivisionOptions& options, bool isCoherent) {
@@ -171,9 +171,10 @@ std::optional<SubdivisionPasses::Snapshot> SubdivisionPasses::latest() const {
 }
 
 void SubdivisionPasses::illustrate() const {
-    resize(sums_, bits_.width_px(), bits_.height_px(), GL_RGBA8, "light sampling sums");
-    resize(failing_, bits_.width_px(), bits_.height_px(), GL_RGBA8, "light sampling failing fragments");
-    resize(quads_, quadsPictureSize_px, quadsPictureSize_px, GL_RGBA8, "light sampling quads");
+    resize(sums_, bits_.width_px(), bits_.height_px(), gl::Format::rgba8, "light sampling sums");
+    resize(failing_, bits_.width_px(), bits_.height_px(), gl::Format::rgba8,
+           "light sampling failing fragments");
+    resize(quads_, quadsPictureSize_px, quadsPictureSize_px, gl::Format::rgba8, "light sampling quads");
     illustrate_.use();
     bits_.bind(0);
     bindStorage(0, tree_);

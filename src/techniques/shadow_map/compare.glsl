@@ -11,9 +11,9 @@ const float toleranceTexels = 1.0;
 const float tolerancePrecision = 4e-6;  // some 32 ulps: positions come out of a 32-bit depth buffer and three transforms
 
 // The light's centre is above the surface's horizon, and the surface on the side to which the light emits.
-bool isFacingCenter(Receiver receiver, bool isDistant, bool isOneSided) {
-    vec3 towardsLight = isDistant ? vec3(0.0, 0.0, 1.0) : -receiver.posLight;
-    return dot(receiver.normalLight, towardsLight) > 0.0 && (!isOneSided || receiver.posLight.z < 0.0);
+bool isFacingCenter(Receiver receiver, LightConstants light) {
+    vec3 towardsLight = light.shape == shapeDistant ? vec3(0.0, 0.0, 1.0) : -receiver.posLight;
+    return dot(receiver.normalLight, towardsLight) > 0.0 && (!light.isOneSided || receiver.posLight.z < 0.0);
 }
 
 // Whether a texel that holds `stored` lets the light's centre see the receiver.

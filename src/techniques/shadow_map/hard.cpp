@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/techniques/shadow_map/hard.h"
 
+#include "src/techniques/shadow_map/shadow_map_io.h"
+
 namespace penumbra {
 
 HardShadowMap::HardShadowMap(Device& device)
@@ -22,15 +24,13 @@ void HardShadowMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     }
     {
         const auto pass = timers_.pass("hard/resolve");
-        resolve_.use();
-        view_.bind(inputs.view, lightFromWorldMatrix);
-        depthMap_.bind(3, 0);
-        bindVisibility(out, 0);
-        glUniform1i(0, depthMap_.count());
-        glUniform1i(1, inputs.light.shape == LightShape::distant);
-        glUniform1i(2, isOneSided(inputs.light));
-        gl::dispatchPixels(out.width_px(), out.height_px());
-        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+        view_.fill(inputs.view, lightFromWorldMatrix);
+        gl::Pass(resolve_)
+            .constants(HardConstants{.light = lightConstants(inputs.light), .mapCount = depthMap_.count()})
+            .bind(view_)
+            .bind(depthMap_)
+            .bind("visibility", imageOf(out))
+            .dispatchPixels(out.width_px(), out.height_px());
     }
 }
 

@@ -7,9 +7,6 @@
 // Seen from the light's centre, where the map was made, b thus appears beside p by k l: exactly, at any tilt. For a
 // distant light l is a tangent, k the distance from blocker to receiver along the light's axis, and b = p + k (l, -1).
 
-// Names of penumbra::LightShape.
-const int shapeRect = 0, shapeDisk = 1, shapeSphere = 2, shapeDistant = 3;
-
 struct LightFrame {
     vec3 pos;          // the receiver; the light's centre is the origin (distant: any)
     vec3 normal;       // the receiver's

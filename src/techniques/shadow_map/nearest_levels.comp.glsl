@@ -5,7 +5,7 @@ layout(local_size_x = 16, local_size_y = 16) in;
 
 #include "src/techniques/shadow_map/nearest_tiles.glsl"
 
-layout(std430, binding = 3) coherent buffer NearestTiles { float nearestTiles[]; };
+layout(std430) coherent buffer NearestTiles { float nearestTiles[]; };
 
 void main() {
     int map = int(gl_WorkGroupID.z) * tilesPerMap;

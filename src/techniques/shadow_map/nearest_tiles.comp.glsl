@@ -3,14 +3,12 @@
 // The pyramid's base: each work group goes through the texels of one tile.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#define DEPTH_MAP_UNIT 3
-#define DEPTH_MAP_BLOCK 0
 #include "src/techniques/common/depth_map.glsl"
 #include "src/techniques/shadow_map/nearest_tiles.glsl"
+#include "src/techniques/shadow_map/shadow_map_io.h"
 
-layout(std430, binding = 3) writeonly buffer NearestTiles { float nearestTiles[]; };
-layout(location = 0) uniform int tile_px;
-layout(location = 1) uniform bool hasPlane;  // rect and disk lights
+layout(std430) writeonly buffer NearestTiles { float nearestTiles[]; };
+layout(std140) uniform Constants { NearestTilesConstants constants; };
 
 shared float nearest[64];
 
@@ -20,10 +18,10 @@ float closeness(int camera, vec2 tile, float stored, int size_px) {
     if (stored == 0.0) return -3.4e38;
     float depth_m = depthFace_m(camera, stored);
     if (c.depth.z == 1.0) return -depth_m;
-    vec2 low = tile * float(tile_px) / float(size_px) / c.window.zw + c.window.xy;
-    vec2 high = (tile + 1.0) * float(tile_px) / float(size_px) / c.window.zw + c.window.xy;
+    vec2 low = tile * float(constants.tile_px) / float(size_px) / c.window.zw + c.window.xy;
+    vec2 high = (tile + 1.0) * float(constants.tile_px) / float(size_px) / c.window.zw + c.window.xy;
     float distance_m;
-    if (hasPlane) {
+    if (constants.hasPlane) {
         // Column 2 is the light's z axis as the camera sees it; the distance from its plane is linear over the tile.
         vec3 axis = c.faceFromLight[2].xyz;
         vec4 corners = vec4(dot(axis, vec3(low, 1.0)), dot(axis, vec3(high, 1.0)),
@@ -42,9 +40,9 @@ void main() {
     int size_px = textureSize(depthMaps, 0).x;
     ivec2 tile = ivec2(gl_WorkGroupID.xy);
     float stored = 0.0;
-    for (int y = 2 * int(gl_LocalInvocationID.y); y < tile_px; y += 16) {
-        for (int x = 2 * int(gl_LocalInvocationID.x); x < tile_px; x += 16) {
-            vec2 corner = vec2(tile * tile_px + ivec2(x, y) + 1) / float(size_px);
+    for (int y = 2 * int(gl_LocalInvocationID.y); y < constants.tile_px; y += 16) {
+        for (int x = 2 * int(gl_LocalInvocationID.x); x < constants.tile_px; x += 16) {
+            vec2 corner = vec2(tile * constants.tile_px + ivec2(x, y) + 1) / float(size_px);
             vec4 four = textureGather(depthMaps, vec3(corner, camera));
             stored = max(stored, max(max(four.x, four.y), max(four.z, four.w)));
         }

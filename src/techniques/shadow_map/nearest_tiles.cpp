@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "src/techniques/shadow_map/shadow_map_io.h"
+
 namespace penumbra {
 namespace {
 
@@ -18,24 +20,18 @@ NearestTiles::NearestTiles(Device& device)
 
 void NearestTiles::build(const DepthMap& depthMap, LightShape shape) {
     const std::size_t maps = std::size_t(std::max(1, depthMap.count()));
-    const std::size_t size_bytes = maps * tilesPerMap * sizeof(float);
-    if (tiles_.name() == 0 || tiles_.size_bytes() < size_bytes)
-        tiles_ = gl::Buffer(size_bytes, "nearest tiles");
+    tiles_.reserve(maps * tilesPerMap * sizeof(float), "nearest tiles");
     tile_px_ = (depthMap.texture().width_px() + tilesAcross - 1) / tilesAcross;
     if (depthMap.count() == 0) return;
 
-    const GLuint layers = GLuint(depthMap.count());
-    tilesProgram_.use();
-    depthMap.bind(3, 0);
-    bind(3);
-    glUniform1i(0, tile_px_);
-    glUniform1i(1, shape == LightShape::rect || shape == LightShape::disk);
-    glDispatchCompute(tilesAcross, tilesAcross, layers);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    levelsProgram_.use();
-    bind(3);
-    glDispatchCompute(1, 1, layers);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    const auto layers = std::size_t(depthMap.count());
+    gl::Pass(tilesProgram_)
+        .constants(NearestTilesConstants{.tile_px = tile_px_,
+                                         .hasPlane = shape == LightShape::rect || shape == LightShape::disk})
+        .bind(depthMap)
+        .bind("NearestTiles", tiles_)
+        .dispatch(tilesAcross, tilesAcross, layers);
+    gl::Pass(levelsProgram_).bind("NearestTiles", tiles_).dispatch(1, 1, layers);
 }
 
 }  // namespace penumbra

@@ -14,7 +14,7 @@ class NearestTiles {
     explicit NearestTiles(Device& device);
 
     void build(const DepthMap& depthMap, LightShape shape);
-    void bind(unsigned block) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block, tiles_.name()); }
+    const gl::Buffer& tiles() const { return tiles_; }
 
     /// Width of a tile.
     int tile_px() const { return tile_px_; }

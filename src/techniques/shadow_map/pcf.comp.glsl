@@ -5,22 +5,14 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/common/view.glsl"
-#define DEPTH_MAP_UNIT 3
-#define DEPTH_MAP_BLOCK 0
 #include "src/techniques/common/depth_map.glsl"
+#include "src/techniques/shadow_map/shadow_map_io.h"
 #include "src/techniques/shadow_map/compare.glsl"
 
-layout(std430, binding = 1) readonly buffer PoissonDisk { vec2 poissonDisk[]; };  // points of the unit disk
+layout(std430) readonly buffer PoissonDisk { vec2 poissonDisk[]; };  // points of the unit disk
 
-layout(binding = 0) uniform writeonly image2D visibility;
-layout(location = 0) uniform int mapCount;
-layout(location = 1) uniform bool isDistant;
-layout(location = 2) uniform bool isOneSided;
-layout(location = 3) uniform int kernel;  // Pcf::Kernel
-layout(location = 4) uniform float radius_px;
-layout(location = 5) uniform int poissonCount;
-
-const int kernelBilinear = 0, kernelTent3 = 1, kernelTent5 = 2, kernelBicubic = 3, kernelPoisson = 4;
+uniform writeonly image2D visibility;
+layout(std140) uniform Constants { PcfConstants pcf; };
 
 // The integral, from minus infinity to x, of a tent of unit area that is 2 * halfWidth wide.
 float tentBelow(float x, float halfWidth) {
@@ -30,10 +22,10 @@ float tentBelow(float x, float halfWidth) {
 
 // The weight of a texel whose centre lies `x` texels away. Each is a partition of unity: it sums to 1 over all texels.
 float weightAt(float x) {
-    if (kernel == kernelTent3) return tentBelow(x + 0.5, 1.5) - tentBelow(x - 0.5, 1.5);
-    if (kernel == kernelTent5) return tentBelow(x + 0.5, 2.5) - tentBelow(x - 0.5, 2.5);
+    if (pcf.kernel == kernelTent3) return tentBelow(x + 0.5, 1.5) - tentBelow(x - 0.5, 1.5);
+    if (pcf.kernel == kernelTent5) return tentBelow(x + 0.5, 2.5) - tentBelow(x - 0.5, 2.5);
     x = abs(x);
-    if (kernel == kernelBicubic) {  // the cubic B-spline
+    if (pcf.kernel == kernelBicubic) {  // the cubic B-spline
         float outer = max(0.0, 2.0 - x), inner = max(0.0, 1.0 - x);
         return (outer * outer * outer - 4.0 * inner * inner * inner) / 6.0;
     }
@@ -65,26 +57,26 @@ float filteredLit(int camera, MapPoint point, vec3 normalFace, vec2 place_px, in
 }
 
 float seenBy(Receiver receiver) {
-    if (!isFacingCenter(receiver, isDistant, isOneSided)) return 0.0;
+    if (!isFacingCenter(receiver, pcf.light)) return 0.0;
     MapPoint point;
-    int camera = findCamera(mapCount, receiver.posLight, point);
+    int camera = findCamera(pcf.mapCount, receiver.posLight, point);
     if (camera < 0) return 1.0;
     vec3 normalFace = mat3(lightCameras[camera].faceFromLight) * receiver.normalLight;
     vec2 place_px = point.uv * float(textureSize(depthMaps, 0).x);
-    if (kernel == kernelPoisson) {
+    if (pcf.kernel == kernelPoisson) {
         float lit = 0.0;
-        for (int i = 0; i < poissonCount; ++i) {
-            lit += filteredLit(camera, point, normalFace, place_px + radius_px * poissonDisk[i], 1);
+        for (int i = 0; i < pcf.poissonCount; ++i) {
+            lit += filteredLit(camera, point, normalFace, place_px + pcf.radius_px * poissonDisk[i], 1);
         }
-        return lit / float(poissonCount);
+        return lit / float(pcf.poissonCount);
     }
-    int reach_px = kernel == kernelBilinear ? 1 : kernel == kernelTent5 ? 3 : 2;
+    int reach_px = pcf.kernel == kernelBilinear ? 1 : pcf.kernel == kernelTent5 ? 3 : 2;
     return filteredLit(camera, point, normalFace, place_px, reach_px);
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
+    if (any(greaterThanEqual(pixel, view.size_px))) return;
     Receiver receiver;
     float seen = loadReceiver(pixel, receiver) ? seenBy(receiver) : 1.0;
     imageStore(visibility, pixel, vec4(clamp(seen, 0.0, 1.0)));

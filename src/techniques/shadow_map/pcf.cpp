@@ -4,6 +4,7 @@
 #include <array>
 
 #include "src/techniques/shadow_map/patterns.h"
+#include "src/techniques/shadow_map/shadow_map_io.h"
 #include "src/techniques/shadow_map/window_margin.h"
 
 namespace penumbra {
@@ -61,19 +62,18 @@ void Pcf::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     }
     {
         const auto pass = timers_.pass("pcf/resolve");
-        resolve_.use();
-        view_.bind(inputs.view, lightFromWorldMatrix);
-        depthMap_.bind(3, 0);
-        poissonDisk_.bind(1);
-        bindVisibility(out, 0);
-        glUniform1i(0, depthMap_.count());
-        glUniform1i(1, inputs.light.shape == LightShape::distant);
-        glUniform1i(2, isOneSided(inputs.light));
-        glUniform1i(3, kernel_);
-        glUniform1f(4, radius_px_);
-        glUniform1i(5, poissonCount);
-        gl::dispatchPixels(out.width_px(), out.height_px());
-        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+        view_.fill(inputs.view, lightFromWorldMatrix);
+        gl::Pass(resolve_)
+            .constants(PcfConstants{.light = lightConstants(inputs.light),
+                                    .mapCount = depthMap_.count(),
+                                    .kernel = kernel_,
+                                    .radius_px = radius_px_,
+                                    .poissonCount = poissonCount})
+            .bind(view_)
+            .bind(depthMap_)
+            .bind("PoissonDisk", poissonDisk_)
+            .bind("visibility", imageOf(out))
+            .dispatchPixels(out.width_px(), out.height_px());
     }
 }
 

@@ -23,7 +23,7 @@ class Pcf final : public Technique {
     Statistics statistics() const override;
 
   private:
-    enum class Kernel { bilinear, tent3, tent5, bicubic, poisson };
+    enum class Kernel { bilinear, tent3, tent5, bicubic, poisson };  ///< numbered as in shadow_map_io.h
 
     /// How far from the receiver's place the kernel reaches.
     double reach_px() const;

@@ -5,20 +5,18 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/common/view.glsl"
-#define DEPTH_MAP_UNIT 3
-#define DEPTH_MAP_BLOCK 0
 #include "src/techniques/common/depth_map.glsl"
+#include "src/techniques/shadow_map/shadow_map_io.h"
 #include "src/techniques/shadow_map/light_frame.glsl"
 #include "src/techniques/shadow_map/nearest_tiles.glsl"
-#include "src/techniques/shadow_map/pcss_io.h"
 
-layout(std140, binding = 1) uniform PcssBlock { PcssConstants pcss; };
-layout(std430, binding = 1) readonly buffer SearchPattern { vec4 searchPattern[]; };  // direction, distance
-layout(std430, binding = 2) readonly buffer FilterPattern { vec2 filterPattern[]; };  // square or disk
-layout(std430, binding = 3) readonly buffer NearestTiles { float nearestTiles[]; };
+layout(std140) uniform Constants { PcssConstants pcss; };
+layout(std430) readonly buffer SearchPattern { vec4 searchPattern[]; };  // direction, distance
+layout(std430) readonly buffer FilterPattern { vec2 filterPattern[]; };  // square or disk
+layout(std430) readonly buffer NearestTiles { float nearestTiles[]; };
 
-layout(binding = 4) uniform sampler2D radiance;
-layout(binding = 0) uniform writeonly image2D visibility;
+uniform sampler2D radiance;
+uniform writeonly image2D visibility;
 
 const float largestK = 1e4;
 
@@ -32,7 +30,7 @@ struct Dither {
 float gradientNoise(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
 
 Dither ditherOf(ivec2 pixel) {
-    if (pcss.samples.z == 0) return Dither(mat2(1.0), vec2(0.0));
+    if (!pcss.isRotated) return Dither(mat2(1.0), vec2(0.0));
     float noise = gradientNoise(vec2(pixel));
     float angle = 6.2831853 * noise;
     mat2 rotation = mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
@@ -43,15 +41,15 @@ LightFrame frameOf(Receiver receiver, vec3 upLight) {
     LightFrame frame;
     frame.pos = receiver.posLight;
     frame.normal = receiver.normalLight;
-    frame.axisX = vec3(pcss.extent.x, 0.0, 0.0);
-    frame.axisY = vec3(0.0, pcss.extent.y, 0.0);
-    frame.away = vec3(0.0, 0.0, receiver.posLight.z < 0.0 || pcss.light.x == shapeDistant ? -1.0 : 1.0);
-    frame.distance_m = pcss.light.x == shapeDistant ? 1.0 : abs(receiver.posLight.z);
-    if (pcss.light.x == shapeSphere) {
+    frame.axisX = vec3(pcss.light.halfSize.x, 0.0, 0.0);
+    frame.axisY = vec3(0.0, pcss.light.halfSize.y, 0.0);
+    frame.away = vec3(0.0, 0.0, receiver.posLight.z < 0.0 || pcss.light.shape == shapeDistant ? -1.0 : 1.0);
+    frame.distance_m = pcss.light.shape == shapeDistant ? 1.0 : abs(receiver.posLight.z);
+    if (pcss.light.shape == shapeSphere) {
         // The disk through the centre that fills the cone in which the sphere is seen.
         frame.distance_m = max(length(receiver.posLight), 1e-30);
         frame.away = receiver.posLight / frame.distance_m;
-        float sine = min(pcss.extent.x / frame.distance_m, 0.999);
+        float sine = min(pcss.light.halfSize.x / frame.distance_m, 0.999);
         float radius_m = frame.distance_m * sine / sqrt(1.0 - sine * sine);
         vec3 sideways = normalize(cross(upLight, frame.away));
         frame.axisX = radius_m * sideways;
@@ -69,9 +67,9 @@ vec2 evenInSolidAngle(vec2 place, float oneMinusCosine) {
 
 vec2 lightPlace(int i, Dither dither, float oneMinusCosine) {
     vec2 place = filterPattern[i];
-    if (pcss.light.x == shapeRect) return pcss.samples.z == 0 ? place : 2.0 * fract(0.5 * place + 0.5 + dither.shift) - 1.0;
+    if (pcss.light.shape == shapeRect) return !pcss.isRotated ? place : 2.0 * fract(0.5 * place + 0.5 + dither.shift) - 1.0;
     place = dither.rotation * place;
-    return pcss.light.x == shapeDisk ? place : evenInSolidAngle(place, oneMinusCosine);
+    return pcss.light.shape == shapeDisk ? place : evenInSolidAngle(place, oneMinusCosine);
 }
 
 // The largest k that a blocker may have in the part of the map where the light's outline, times k, is seen.
@@ -91,8 +89,8 @@ float largestKWithin(int camera, LightFrame face, float k) {
 
     float closest = -3.4e38;
     bool isInside = all(greaterThanEqual(low, vec2(0.0))) && all(lessThan(high, vec2(1.0)));
-    if (isInside || pcss.maps.x == 1) {
-        float tiles = float(textureSize(depthMaps, 0).x) / float(pcss.maps.y);
+    if (isInside || pcss.mapCount == 1) {
+        float tiles = float(textureSize(depthMaps, 0).x) / float(pcss.tile_px);
         ivec2 first = min(ivec2(clamp(low, 0.0, 1.0) * tiles), tilesAcross - 1);
         ivec2 last = min(ivec2(clamp(high, 0.0, 1.0) * tiles), tilesAcross - 1);
         int level = 0;
@@ -103,7 +101,7 @@ float largestKWithin(int camera, LightFrame face, float k) {
         closest = max(max(nearestTiles[start + first.y * across + first.x], nearestTiles[start + first.y * across + last.x]),
                       max(nearestTiles[start + last.y * across + first.x], nearestTiles[start + last.y * across + last.x]));
     } else {
-        for (int map = 0; map < pcss.maps.x; ++map) {
+        for (int map = 0; map < pcss.mapCount; ++map) {
             closest = max(closest, nearestTiles[map * tilesPerMap + tilesPerMap - 1]);
         }
     }
@@ -119,28 +117,28 @@ float searchBlockers(int camera, LightFrame face, LightFrame lightFrame, Dither 
     if (k == 0.0) return 0.0;
 
     float area = 0.0, areaTimesK = 0.0, areaOverK = 0.0;
-    for (int i = 0; i < pcss.samples.x; ++i) {
+    for (int i = 0; i < pcss.searchSamples; ++i) {
         vec2 direction = dither.rotation * searchPattern[i].xy;
-        float outline = pcss.light.x == shapeRect ? 1.0 / max(abs(direction.x), abs(direction.y)) : 1.0;
+        float outline = pcss.light.shape == shapeRect ? 1.0 / max(abs(direction.x), abs(direction.y)) : 1.0;
         float fraction = searchPattern[i].z;
-        Tap tap = tapAny(camera, pcss.maps.x, face, lightFrame, k * fraction * outline * direction);
+        Tap tap = tapAny(camera, pcss.mapCount, face, lightFrame, k * fraction * outline * direction);
         if (!tap.isBlocked) continue;
         // Its part of the searched area. Distances are even, hence the factor; the centre has a disk to itself.
-        float part = max(fraction, 0.25 / float(pcss.samples.x)) * outline * outline;
+        float part = max(fraction, 0.25 / float(pcss.searchSamples)) * outline * outline;
         area += part;
         areaTimesK += part * tap.k;
         areaOverK += part / tap.k;
     }
     if (area == 0.0) return 0.0;
-    return min(pcss.samples.w == 1 ? area / areaOverK : areaTimesK / area, largestK);
+    return min(pcss.meanIsHarmonic ? area / areaOverK : areaTimesK / area, largestK);
 }
 
 vec3 seenBy(Receiver receiver, Dither dither) {
-    bool isDistant = pcss.light.x == shapeDistant;
-    if (pcss.light.y == 1 && receiver.posLight.z >= 0.0) return vec3(0.0);
+    bool isDistant = pcss.light.shape == shapeDistant;
+    if (pcss.light.isOneSided && receiver.posLight.z >= 0.0) return vec3(0.0);
     int camera = -1;
     MapPoint point;
-    for (int i = 0; i < pcss.maps.x && camera < 0; ++i) {
+    for (int i = 0; i < pcss.mapCount && camera < 0; ++i) {
         point = mapPoint(i, receiver.posLight);
         if (isInWindow(i, point)) camera = i;
     }
@@ -149,7 +147,7 @@ vec3 seenBy(Receiver receiver, Dither dither) {
 
     // None of the light, or nothing but a line of it, above the horizon.
     vec2 slope = vec2(dot(frame.normal, frame.axisX), dot(frame.normal, frame.axisY));
-    float widest = pcss.light.x == shapeRect ? abs(slope.x) + abs(slope.y) : length(slope);
+    float widest = pcss.light.shape == shapeRect ? abs(slope.x) + abs(slope.y) : length(slope);
     float center = dot(frame.normal, towardsLight(frame, vec2(0.0), isDistant));
     if (center + widest <= 0.0) return vec3(0.0);
     if (camera < 0 || frame.distance_m == 0.0) return vec3(1.0);
@@ -158,23 +156,23 @@ vec3 seenBy(Receiver receiver, Dither dither) {
     float k = searchBlockers(camera, face, frame, dither);
     if (k == 0.0) return vec3(1.0);
 
-    float sine = min(pcss.extent.x / frame.distance_m, 0.999);
+    float sine = min(pcss.light.halfSize.x / frame.distance_m, 0.999);
     float oneMinusCosine =
-        pcss.light.x == shapeSphere ? sine * sine / (1.0 + sqrt(1.0 - sine * sine)) : pcss.extent.z;
+        pcss.light.shape == shapeSphere ? sine * sine / (1.0 + sqrt(1.0 - sine * sine)) : pcss.oneMinusCosine;
     vec3 lit = vec3(0.0), all = vec3(0.0);
-    for (int i = 0; i < pcss.samples.y; ++i) {
+    for (int i = 0; i < pcss.filterSamples; ++i) {
         vec2 place = lightPlace(i, dither, oneMinusCosine);
         if (center + dot(slope, place) <= 0.0) continue;
-        vec3 weight = pcss.light.z == 1 ? textureLod(radiance, 0.5 * place + 0.5, 0.0).rgb : vec3(1.0);
+        vec3 weight = pcss.light.isTextured ? textureLod(radiance, 0.5 * place + 0.5, 0.0).rgb : vec3(1.0);
         all += weight;
-        if (!tapAny(camera, pcss.maps.x, face, frame, k * place).isBlocked) lit += weight;
+        if (!tapAny(camera, pcss.mapCount, face, frame, k * place).isBlocked) lit += weight;
     }
     return mix(vec3(0.0), lit / max(all, vec3(1e-30)), greaterThan(all, vec3(0.0)));
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
+    if (any(greaterThanEqual(pixel, view.size_px))) return;
     Receiver receiver;
     vec3 seen = loadReceiver(pixel, receiver) ? seenBy(receiver, ditherOf(pixel)) : vec3(1.0);
     imageStore(visibility, pixel, vec4(clamp(seen, 0.0, 1.0), 1.0));

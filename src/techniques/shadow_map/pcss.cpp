@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "src/techniques/shadow_map/light_extent.h"
+#include "src/techniques/common/light_constants.h"
 #include "src/techniques/shadow_map/patterns.h"
 #include "src/techniques/shadow_map/window_margin.h"
 
@@ -22,17 +22,12 @@ AreaLight scaled(AreaLight light, float scale) {
     return light;
 }
 
-bool hasSize(const AreaLight& light) {
-    return lightExtent(light) != glm::dvec2(0);
-}
-
 }  // namespace
 
 Pcss::Pcss(Device& device)
     : depthMap_(device),
       nearestTiles_(device),
       resolve_(device.internals().shaders, {"src/techniques/shadow_map/pcss.comp.glsl"}),
-      constants_("pcss/constants"),
       searchPattern_("pcss/search pattern"),
       filterPattern_("pcss/filter pattern") {}
 
@@ -61,12 +56,14 @@ PcssConstants Pcss::constantsOf(const AreaLight& light) const {
     // A light without a size looks the same from every sample.
     const bool soft = hasSize(light);
     return {
-        .extent = glm::dvec4(extent, 1 - cosine, 0),
-        .light = {int(light.shape), isOneSided(light), light.radianceTexture != 0, 0},
-        .samples = {soft ? searchSamples_ : 1, soft ? filterSamples_ : 1,
-                    Pattern(pattern_) == Pattern::rotated,
-                    BlockerMean(blockerMean_) == BlockerMean::harmonic},
-        .maps = {depthMap_.count(), nearestTiles_.tile_px(), 0, 0},
+        .light = lightConstants(light),
+        .oneMinusCosine = float(1 - cosine),
+        .searchSamples = soft ? searchSamples_ : 1,
+        .filterSamples = soft ? filterSamples_ : 1,
+        .isRotated = Pattern(pattern_) == Pattern::rotated,
+        .meanIsHarmonic = BlockerMean(blockerMean_) == BlockerMean::harmonic,
+        .mapCount = depthMap_.count(),
+        .tile_px = nearestTiles_.tile_px(),
     };
 }
 
@@ -101,18 +98,17 @@ void Pcss::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     }
     {
         const auto pass = timers_.pass("pcss/resolve");
-        resolve_.use();
-        view_.bind(inputs.view, lightFromWorldMatrix);
-        depthMap_.bind(3, 0);
-        constants_.write(constantsOf(light));
-        constants_.bindUniform(1);
-        searchPattern_.bind(1);
-        filterPattern_.bind(2);
-        nearestTiles_.bind(3);
-        glBindTextureUnit(4, light.radianceTexture);
-        bindVisibility(out, 0);
-        gl::dispatchPixels(out.width_px(), out.height_px());
-        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+        view_.fill(inputs.view, lightFromWorldMatrix);
+        gl::Pass(resolve_)
+            .constants(constantsOf(light))
+            .bind(view_)
+            .bind(depthMap_)
+            .bind("SearchPattern", searchPattern_)
+            .bind("FilterPattern", filterPattern_)
+            .bind("NearestTiles", nearestTiles_.tiles())
+            .bind("radiance", gl::TextureRef{.name = light.radianceTexture})
+            .bind("visibility", imageOf(out))
+            .dispatchPixels(out.width_px(), out.height_px());
     }
 }
 

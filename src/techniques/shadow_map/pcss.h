@@ -11,7 +11,7 @@
 #include "src/techniques/common/depth_map.h"
 #include "src/techniques/common/view_constants.h"
 #include "src/techniques/shadow_map/nearest_tiles.h"
-#include "src/techniques/shadow_map/pcss_io.h"
+#include "src/techniques/shadow_map/shadow_map_io.h"
 
 namespace penumbra {
 
@@ -42,7 +42,6 @@ class Pcss final : public Technique {
     NearestTiles nearestTiles_;
     gl::Program resolve_;
     ViewBinding view_;
-    gl::ConstantBuffer<PcssConstants> constants_;
     gl::StorageArray<glm::vec4> searchPattern_;
     gl::StorageArray<glm::vec2> filterPattern_;
     int searchPatternSize_ = 0, filterPatternSize_ = 0;

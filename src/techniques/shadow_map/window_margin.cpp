@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/techniques/shadow_map/light_extent.h"
+#include "src/techniques/common/light_constants.h"
 
 namespace penumbra {
 namespace {

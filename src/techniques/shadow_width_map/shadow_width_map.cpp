@@ -110,8 +110,10 @@ void ShadowWidthMap::describe(ParameterVisitor& visitor) {
 void ShadowWidthMap::setAttenuation(const AttenuationFunction& attenuation) {
     const std::vector<float> table = tabulateAttenuation(attenuation);
     const int entries = int(table.size());
-    curveTable_ =
-        gl::Texture({.width_px = entries, .format = GL_R32F, .filter = GL_LINEAR, .label = "attenuation"});
+    curveTable_ = gl::Texture({.width_px = entries,
+                               .format = gl::Format::r32f,
+                               .filter = gl::Filter::linear,
+                               .label = "attenuation"});
     glTextureSubImage2D(curveTable_.name(), 0, 0, 0, entries, 1, GL_RED, GL_FLOAT, table.data());
     tabulatedCurve_ = curve_;
 }
@@ -177,7 +179,7 @@ int ShadowWidthMap::cell_px() const {
     return mapSize_px_ <= 128 ? 1 : mapSize_px_ <= 256 ? 2 : mapSize_px_ <= 1024 ? 4 : 8;
 }
 
-void ShadowWidthMap::allocate(gl::Texture& texture, int size_px, int layers, GLenum format,
+void ShadowWidthMap::allocate(gl::Texture& texture, int size_px, int layers, gl::Format format,
                               std::string_view label) const {
     if (texture.width_px() == size_px && texture.layers() >= layers) return;
     texture = {};  // freed first, so that the two need not fit together
@@ -186,16 +188,17 @@ void ShadowWidthMap::allocate(gl::Texture& texture, int size_px, int layers, GLe
 }
 
 void ShadowWidthMap::allocateWidths(bool scratch) {
-    allocate(widths_, mapSize_px_, depthMap_.count(), GL_R32F, "shadow widths");
-    if (scratch) allocate(scratch_, mapSize_px_, depthMap_.count(), GL_R32F, "shadow widths, before a step");
+    allocate(widths_, mapSize_px_, depthMap_.count(), gl::Format::r32f, "shadow widths");
+    if (scratch)
+        allocate(scratch_, mapSize_px_, depthMap_.count(), gl::Format::r32f, "shadow widths, before a step");
 }
 
 void ShadowWidthMap::findNearestEdges(const AreaLight& light) {
     const int layers = depthMap_.count() * kinds_;
-    allocate(cells_, cellsAcross(), layers, GL_RGBA32UI, "edges in cells");
-    allocate(columns_, cellsAcross(), layers, GL_RG32F, "nearest edges in columns");
-    allocate(nearest_, cellsAcross(), layers, GL_RGBA32UI, "nearest edges");
-    allocate(cellWidths_, cellsAcross(), layers, GL_RG32F, "shadow widths of cells");
+    allocate(cells_, cellsAcross(), layers, gl::Format::rgba32ui, "edges in cells");
+    allocate(columns_, cellsAcross(), layers, gl::Format::rg32f, "nearest edges in columns");
+    allocate(nearest_, cellsAcross(), layers, gl::Format::rgba32ui, "nearest edges");
+    allocate(cellWidths_, cellsAcross(), layers, gl::Format::rg32f, "shadow widths of cells");
     const int blocks = groupsFor(mapSize_px_, 8);
     const auto listSize_bytes = std::size_t(4 + blocks * blocks * depthMap_.count()) * sizeof(GLuint);
     if (listedBlocks_.size_bytes() < listSize_bytes)

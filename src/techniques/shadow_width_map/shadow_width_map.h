@@ -39,7 +39,8 @@ class ShadowWidthMap final : public Technique {
     void composite();
     void sweepOnCpu();
     void resolve(const ShadowInputs& inputs, const glm::dmat4& lightFromWorld, VisibilityBuffer& out);
-    void allocate(gl::Texture& texture, int size_px, int layers, GLenum format, std::string_view label) const;
+    void allocate(gl::Texture& texture, int size_px, int layers, gl::Format format,
+                  std::string_view label) const;
     void allocateWidths(bool scratch);
     void resolvePublished(const VisibilityBuffer& out);
     void resolveExact(const View& view, const VisibilityBuffer& out);

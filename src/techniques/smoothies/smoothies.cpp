@@ -30,17 +30,6 @@ void reserve(gl::Buffer& buffer, std::size_t size_bytes, std::string_view label)
     if (buffer.name() == 0 || buffer.size_bytes() < size_bytes) buffer = gl::Buffer(size_bytes, label);
 }
 
-bool hasSize(const AreaLight& light) {
-    switch (light.shape) {
-        case LightShape::rect:
-            return light.width_m > 0 || light.height_m > 0;
-        case LightShape::distant:
-            return light.angle_rad > 0;
-        default:
-            return light.radius_m > 0;
-    }
-}
-
 /// Blocks light with holes in it.
 bool isMasked(const Caster& caster) {
     return caster.casts && caster.alphaMask.texture != 0;
@@ -103,14 +92,14 @@ void Smoothies::describe(ParameterVisitor& visitor) {
 void Smoothies::allocate(int layers) {
     const int size_px = std::max(1, settings_.mapSize_px / smoothieTexel_px);
     if (deepest_.width_px() == size_px && deepest_.layers() >= layers) return;
-    const auto make = [&](GLenum format, std::string_view label) {
+    const auto make = [&](gl::Format format, std::string_view label) {
         return gl::Texture(
             {.width_px = size_px, .height_px = size_px, .layers = layers, .format = format, .label = label});
     };
     deepest_ = {};  // freed first, so that the old need not fit beside the new
     order_ = {};
-    deepest_ = make(GL_R32UI, "smoothies/deepest edges");
-    order_ = make(GL_DEPTH_COMPONENT32F, "smoothies/order");
+    deepest_ = make(gl::Format::r32ui, "smoothies/deepest edges");
+    order_ = make(gl::Format::depth32f, "smoothies/order");
     framebuffer_ = gl::Framebuffer({&deepest_}, &order_, "smoothies");
 }
 
@@ -171,7 +160,7 @@ void Smoothies::drawSmoothies() {
     constexpr float farthest = 1;
     gl::beginPass(framebuffer_.name(), {.width_px = deepest_.width_px(),
                                         .height_px = deepest_.height_px(),
-                                        .depthTest = GL_LESS,
+                                        .depthTest = gl::Compare::less,
                                         .depthWrite = true});
     smoothie_.use();
     glBindVertexArray(edgesAsVertices_.name());
@@ -340,8 +329,8 @@ void Smoothies::profileLight(GLuint radianceTexture) {
     if (lightProfile_.name() == 0) {
         lightProfile_ = gl::Texture({.width_px = profileDirections + 1,
                                      .height_px = profileOffsets,
-                                     .format = GL_RGBA32F,
-                                     .filter = GL_LINEAR,
+                                     .format = gl::Format::rgba32f,
+                                     .filter = gl::Filter::linear,
                                      .label = "smoothies/light profile"});
     }
     lightProfileProgram_.use();

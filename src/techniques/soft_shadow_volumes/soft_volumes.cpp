@@ -93,7 +93,7 @@ int SoftVolumes::chooseSize() {
     return budgetedSize_;
 }
 
-void SoftVolumes::allocateVBuffer(glm::ivec2 size_px, GLenum format) {
+void SoftVolumes::allocateVBuffer(glm::ivec2 size_px, gl::Format format) {
     if (vBuffer_.name() != 0 && vBuffer_.width_px() == size_px.x && vBuffer_.height_px() == size_px.y &&
         vBuffer_.format() == format)
         return;
@@ -147,7 +147,7 @@ void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
         resolveHard(out);
         return;
     }
-    const GLenum format = out.colored() ? GL_RGBA16F : GL_R32F;
+    const gl::Format format = out.colored() ? gl::Format::rgba16f : gl::Format::r32f;
     if (pixelsPerTexel > 1) allocateVBuffer(glm::ivec2(frame.constants.buffer_px), format);
     const GLuint target = pixelsPerTexel > 1 ? vBuffer_.name() : out.texture();
     if (wedges) {

@@ -25,7 +25,7 @@ class SoftVolumes final : public Technique {
   private:
     void resolveHard(const VisibilityBuffer& out);
     int chooseSize();
-    void allocateVBuffer(glm::ivec2 size_px, GLenum format);
+    void allocateVBuffer(glm::ivec2 size_px, gl::Format format);
     void upsample(const VisibilityBuffer& out);
 
     enum class Method { layers, wedges };

@@ -95,7 +95,7 @@ void TileLayers::prepare(VolumeFrame& frame, Effort effort) {
         edgeCounts_ = {};
         edgeCounts_ = gl::Texture({.width_px = size_px.x,
                                    .height_px = size_px.y,
-                                   .format = GL_R32F,
+                                   .format = gl::Format::r32f,
                                    .label = "soft-volumes/edges a pixel"});
     }
 }
@@ -203,7 +203,7 @@ void TileLayers::resolve(const VolumeFrame& frame, const VolumeCounter& counter)
 }
 
 void TileLayers::render(const VolumeFrame& frame, const AreaLight& light, const VolumeCounter& counter,
-                        GLuint target, GLenum format, gl::PassTimers& timers) {
+                        GLuint target, gl::Format format, gl::PassTimers& timers) {
     {
         const auto pass = timers.pass("soft-volumes/edges");
         gatherEdges(frame, counter);
@@ -215,7 +215,7 @@ void TileLayers::render(const VolumeFrame& frame, const AreaLight& light, const 
         listEdges(frame, counter);
     }
     const auto pass = timers.pass("soft-volumes/visibility");
-    glBindImageTexture(0, target, 0, GL_FALSE, 0, GL_WRITE_ONLY, format);
+    glBindImageTexture(0, target, 0, GL_FALSE, 0, GL_WRITE_ONLY, GLenum(format));
     resolve(frame, counter);
 }
 

@@ -34,7 +34,7 @@ class TileLayers {
     /// Writes visibility into `target`, a texture of the V-buffer's size. The frame's constants, the view and
     /// what `counter` counted must be there.
     void render(const VolumeFrame& frame, const AreaLight& light, const VolumeCounter& counter, GLuint target,
-                GLenum format, gl::PassTimers& timers);
+                gl::Format format, gl::PassTimers& timers);
 
     /// How many edges were looked at for each texel.
     const gl::Texture& edgeCounts() const { return edgeCounts_; }

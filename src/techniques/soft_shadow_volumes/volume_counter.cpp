@@ -22,12 +22,12 @@ struct CapCommand {
     GLuint count, instanceCount, first, baseInstance, unused;
 };
 
-gl::RasterState countingState(const VolumeConstants& constants, GLenum depthTest) {
+gl::RasterState countingState(const VolumeConstants& constants, gl::Compare depthTest) {
     return {.width_px = constants.buffer_px.x,
             .height_px = constants.buffer_px.y,
             .depthTest = depthTest,
             .depthClamp = true,
-            .blendEquation = GL_FUNC_ADD};
+            .blend = gl::Blend::sum};
 }
 
 }  // namespace
@@ -57,11 +57,13 @@ void VolumeCounter::allocate(int width_px, int height_px) {
     if (counts_.name() != 0 && counts_.width_px() == width_px && counts_.height_px() == height_px) return;
     counts_ = {};
     depth_ = {};
-    counts_ = gl::Texture(
-        {.width_px = width_px, .height_px = height_px, .format = GL_R32F, .label = "soft-volumes/counts"});
+    counts_ = gl::Texture({.width_px = width_px,
+                           .height_px = height_px,
+                           .format = gl::Format::r32f,
+                           .label = "soft-volumes/counts"});
     depth_ = gl::Texture({.width_px = width_px,
                           .height_px = height_px,
-                          .format = GL_DEPTH_COMPONENT32F,
+                          .format = gl::Format::depth32f,
                           .label = "soft-volumes/receiver depth"});
     framebuffer_ = gl::Framebuffer({&counts_}, &depth_, "soft-volumes/counts");
 }
@@ -141,7 +143,7 @@ void VolumeCounter::drawReceiverDepth(GLuint framebuffer, glm::ivec2 size_px) co
     glBindVertexArray(noVertices_.name());
     gl::beginPass(framebuffer, {.width_px = size_px.x,
                                 .height_px = size_px.y,
-                                .depthTest = GL_ALWAYS,
+                                .depthTest = gl::Compare::always,
                                 .depthWrite = true,
                                 .colorWrite = false});
     depthCopy_.use();
@@ -159,11 +161,13 @@ void VolumeCounter::render(const VolumeFrame& frame, Counting counting) {
 
     const bool reversed = constants.buffer_px.w == 1;
     const float zero = 0;
-    gl::beginPass(framebuffer_.name(), countingState(constants, reversed ? GL_GREATER : GL_LESS));
+    gl::beginPass(framebuffer_.name(),
+                  countingState(constants, reversed ? gl::Compare::greater : gl::Compare::less));
     glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, &zero);
     drawSides(offsetof(EyeState, passSides), 1);
     if (frame.mayHide) drawCaps(frame, 0, 1);
-    gl::beginPass(framebuffer_.name(), countingState(constants, reversed ? GL_LEQUAL : GL_GEQUAL));
+    gl::beginPass(framebuffer_.name(),
+                  countingState(constants, reversed ? gl::Compare::lessEqual : gl::Compare::greaterEqual));
     drawSides(offsetof(EyeState, failSides), -1);
     drawCaps(frame, 1, -1);
 }

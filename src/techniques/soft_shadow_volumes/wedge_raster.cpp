@@ -14,7 +14,7 @@ constexpr const char* wedgeVertices = "src/techniques/soft_shadow_volumes/wedge.
 constexpr int verticesPerWedge = 24;
 constexpr GLint halfLocation = 0, eyeLocation = 1, pointsLocation = 2;
 
-gl::Texture makeTexture(glm::ivec2 size_px, GLenum format, std::string_view label) {
+gl::Texture makeTexture(glm::ivec2 size_px, gl::Format format, std::string_view label) {
     return gl::Texture({.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = label});
 }
 
@@ -47,11 +47,11 @@ void WedgeRaster::allocate(glm::ivec2 size_px, bool isTextured, Options options)
         evaluations_ = {};
         colors_ = {};
         depthAndMarks_ = {};
-        layers_ = makeTexture(size_px, GL_RG32F, "soft-volumes/V-buffer layers");
-        evaluations_ = makeTexture(size_px, GL_R32F, "soft-volumes/wedges a pixel");
-        depthAndMarks_ = makeTexture(size_px, GL_DEPTH32F_STENCIL8, "soft-volumes/marks");
+        layers_ = makeTexture(size_px, gl::Format::rg32f, "soft-volumes/V-buffer layers");
+        evaluations_ = makeTexture(size_px, gl::Format::r32f, "soft-volumes/wedges a pixel");
+        depthAndMarks_ = makeTexture(size_px, gl::Format::depth32fStencil8, "soft-volumes/marks");
         if (isTextured) {
-            colors_ = makeTexture(size_px, GL_RGBA32F, "soft-volumes/V-buffer colours");
+            colors_ = makeTexture(size_px, gl::Format::rgba32f, "soft-volumes/V-buffer colours");
             framebuffer_ = gl::Framebuffer({&layers_, &evaluations_, &colors_}, &depthAndMarks_,
                                            "soft-volumes/V-buffer layers");
         } else {
@@ -62,7 +62,7 @@ void WedgeRaster::allocate(glm::ivec2 size_px, bool isTextured, Options options)
     if (!options.wireframe) {
         wireframe_ = {};
     } else if (!isOfSize(wireframe_, size_px)) {
-        wireframe_ = makeTexture(size_px, GL_R32F, "soft-volumes/wireframe");
+        wireframe_ = makeTexture(size_px, gl::Format::r32f, "soft-volumes/wireframe");
         wireframeFramebuffer_ = gl::Framebuffer({&wireframe_}, nullptr, "soft-volumes/wireframe");
     }
 }
@@ -72,8 +72,8 @@ void WedgeRaster::drawAll(const VolumeCounter& counter) const {
     gl::beginPass(framebuffer_.name(), {.width_px = layers_.width_px(),
                                         .height_px = layers_.height_px(),
                                         .depthClamp = true,
-                                        .cull = GL_FRONT,
-                                        .blendEquation = GL_FUNC_ADD});
+                                        .cull = gl::Cull::front,
+                                        .blend = gl::Blend::sum});
     wedges_.use();
     glUniform1i(halfLocation, 0);
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, counter.eye().name());
@@ -124,11 +124,12 @@ void WedgeRaster::drawMarked(const VolumeFrame& frame, const VolumeCounter& coun
     // triangles.
     const glm::ivec4 buffer_px = frame.constants.buffer_px;
     counter.drawReceiverDepth(framebuffer_.name(), glm::ivec2(buffer_px));
-    gl::beginPass(framebuffer_.name(), {.width_px = buffer_px.x,
-                                        .height_px = buffer_px.y,
-                                        .depthTest = GLenum(buffer_px.w == 1 ? GL_GREATER : GL_LESS),
-                                        .depthClamp = true,
-                                        .blendEquation = GL_FUNC_ADD});
+    gl::beginPass(framebuffer_.name(),
+                  {.width_px = buffer_px.x,
+                   .height_px = buffer_px.y,
+                   .depthTest = buffer_px.w == 1 ? gl::Compare::greater : gl::Compare::less,
+                   .depthClamp = true,
+                   .blend = gl::Blend::sum});
     glEnable(GL_STENCIL_TEST);
     for (int wedge = 0; wedge < int(counter.silhouettes().edgeCount()); ++wedge) {
         for (const int half : {1, -1}) {
@@ -152,7 +153,7 @@ void WedgeRaster::drawWireframe(const VolumeCounter& counter, glm::ivec2 size_px
 }
 
 void WedgeRaster::render(const VolumeFrame& frame, const AreaLight& light, const VolumeCounter& counter,
-                         Options options, GLuint target, GLenum format, gl::PassTimers& timers) {
+                         Options options, GLuint target, gl::Format format, gl::PassTimers& timers) {
     const glm::ivec2 size_px(frame.constants.buffer_px);
     const bool isTextured = light.radianceTexture != 0;
     allocate(size_px, isTextured, options);
@@ -189,7 +190,7 @@ void WedgeRaster::render(const VolumeFrame& frame, const AreaLight& light, const
     counter.bind(3, 2);
     layers_.bind(5);
     if (isTextured) colors_.bind(6);
-    glBindImageTexture(0, target, 0, GL_FALSE, 0, GL_WRITE_ONLY, format);
+    glBindImageTexture(0, target, 0, GL_FALSE, 0, GL_WRITE_ONLY, GLenum(format));
     gl::dispatchPixels(size_px.x, size_px.y);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }

@@ -33,7 +33,7 @@ class WedgeRaster {
     /// Writes visibility into `target`, a texture of the V-buffer's size. The frame's constants, the view and
     /// what `counter` counted must be there.
     void render(const VolumeFrame& frame, const AreaLight& light, const VolumeCounter& counter,
-                Options options, GLuint target, GLenum format, gl::PassTimers& timers);
+                Options options, GLuint target, gl::Format format, gl::PassTimers& timers);
 
     /// The V-buffer's additive and subtractive layer; how many (half) wedges each texel was evaluated for;
     /// and the last outlines, where they were asked for.
