@@ -200,6 +200,19 @@ TEST_F(CommandTest, RendersPictureAndVisibility) {
     EXPECT_EQ(json.at("lights").size(), 5u);
 }
 
+TEST_F(CommandTest, WithoutATechniqueExactIsTaken) {
+    const auto visibility = [&](const std::string& file, const std::string& flags) {
+        const Outcome outcome =
+            run("render two-boxes --size 32x24 -o " + at("a.png") + " --visibility " + at(file) + flags);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return readExr(at(file)).channels.at(0).values;
+    };
+    const std::vector<float> exact = visibility("exact.exr", " -t exact");
+    EXPECT_EQ(visibility("default.exr", ""), exact);
+    EXPECT_NE(visibility("hard.exr", " -t hard"), exact) << "this scene does not tell techniques apart";
+    EXPECT_NE(run("render --help").out.find("exact"), std::string::npos);
+}
+
 TEST_F(CommandTest, OneLightsVisibilityIsChannelV) {
     ASSERT_EQ(run("render two-boxes -t hard --size 32x32 --visibility " + at("v.exr")).exitCode, 0);
     EXPECT_EQ(readExr(at("v.exr")).channels.front().name, "V");

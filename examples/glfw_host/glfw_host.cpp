@@ -278,7 +278,7 @@ bool writeScreenshot(const char* path, int width_px, int height_px) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-    std::string technique = "adaptive", screenshot;
+    std::string technique = "exact", screenshot;
     int frames = -1;
     for (int i = 1; i + 1 < argc; i += 2) {
         const std::string flag = argv[i];

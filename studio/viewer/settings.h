@@ -16,7 +16,7 @@ struct Settings {
     float resolutionScale = 0;       ///< 0: what suits the device
     int referenceSamples = 1024;
     bool referenceRuns = true;
-    std::string technique;  ///< empty: what suits the device
+    std::string technique;  ///< empty: the default
     std::string other = "reference";
     std::vector<std::string> recentFiles;               ///< the newest first, at most ten
     std::map<std::string, ParameterValues> parameters;  ///< by technique, what is not default

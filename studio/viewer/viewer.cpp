@@ -23,15 +23,12 @@ constexpr double messageTime_s = 6;
 
 /// Without an argument: balls, boxes and tori under a large light.
 constexpr const char* welcomeScene = "primitives";
-/// On a software rasteriser many shadow maps are slow; this one answers as exactly with none.
-constexpr const char* softwareTechnique = "exact";
 
 void applySettings(const Settings& settings, Session& session) {
     Choices& choices = session.choices();
     const bool software = session.device().isSoftware();
     const std::vector<std::string> names = techniqueChoices();
     const auto known = [&](const std::string& name) { return std::ranges::count(names, name) != 0; };
-    if (software && known(softwareTechnique)) choices.technique = softwareTechnique;
     if (known(settings.technique)) choices.technique = settings.technique;
     if (known(settings.other)) choices.other = settings.other;
     choices.resolutionScale = settings.resolutionScale > 0 ? settings.resolutionScale

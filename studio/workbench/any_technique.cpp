@@ -19,9 +19,9 @@ std::vector<TechniqueInfo> allTechniques() {
 }
 
 std::string_view defaultTechnique() {
-    const bool hasAdaptive =
-        std::ranges::find(techniqueCatalog(), "adaptive", &TechniqueInfo::name) != techniqueCatalog().end();
-    return hasAdaptive ? "adaptive" : "hard";
+    const bool hasExact =
+        std::ranges::find(techniqueCatalog(), "exact", &TechniqueInfo::name) != techniqueCatalog().end();
+    return hasExact ? "exact" : "hard";
 }
 
 std::unique_ptr<Technique> makeAnyTechnique(Device& device, std::string_view name) {

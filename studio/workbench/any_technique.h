@@ -13,8 +13,7 @@ namespace penumbra::studio {
 /// All names that `makeAnyTechnique` knows: the library's catalog and "reference".
 std::vector<TechniqueInfo> allTechniques();
 
-/// The technique that is used where none is asked for: adaptive light sampling, or hard while that is
-/// missing.
+/// The technique that is used where none is asked for: exact visibility, or hard where that was left out.
 std::string_view defaultTechnique();
 
 /// A technique of the catalog, or the ray-traced reference. Throws Error::Kind::unknownName listing them all.
