@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Run by the build: GLSLANG must accept FILE as STAGE; then writes STAMP. Our files use a bare #include (the library
-# expands it), which glslangValidator knows as an extension.
+# Run by the build: GLSLANG must accept FILE as STAGE; then writes STAMP, and STAMP.d, which says on what it depends. Our
+# files use a bare #include (the library expands it), which glslangValidator knows as an extension.
+cmake_minimum_required(VERSION 3.25)
 file(READ ${FILE} text)
 string(REPLACE "#version 450\n" "#version 450\n#extension GL_GOOGLE_include_directive : require\n" text "${text}")
 file(WRITE ${STAMP}.glsl "${text}")
@@ -9,4 +10,23 @@ execute_process(COMMAND ${GLSLANG} -l -S ${STAGE} -I${ROOT} ${STAMP}.glsl
 if(failed)
     message(FATAL_ERROR "${FILE} (line numbers are one too large):\n${messages}")
 endif()
+
+# Whatever is included from here, once each. (glslangValidator's own list repeats files and names the copy.)
+set(files ${FILE})
+set(unread ${FILE})
+while(unread)
+    list(POP_FRONT unread file)
+    file(STRINGS ${file} lines REGEX "^#include \"[^\"]+\"")
+    foreach(line IN LISTS lines)
+        string(REGEX REPLACE "^#include \"([^\"]+)\".*" "${ROOT}/\\1" included "${line}")
+        if(NOT included IN_LIST files)
+            list(APPEND files ${included})
+            list(APPEND unread ${included})
+        endif()
+    endforeach()
+endwhile()
+list(TRANSFORM files REPLACE " " "\\\\ ")
+list(JOIN files " " files)
+string(REPLACE " " "\\ " target "${STAMP}")
+file(WRITE ${STAMP}.d "${target}: ${files}\n")
 file(WRITE ${STAMP} "")
