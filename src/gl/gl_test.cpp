@@ -123,7 +123,8 @@ TEST_F(GlTest, ImpossibleTexturesAreRefused) {
 }
 
 TEST_F(GlTest, IncompleteFramebuffersAreRefused) {
-    const Texture color({.width_px = 8, .height_px = 8, .format = GL_RGB9_E5, .label = "not drawable"});
+    const Texture color(
+        {.width_px = 8, .height_px = 8, .format = Format(GL_RGB9_E5), .label = "not drawable"});
     EXPECT_THROW(Framebuffer({&color}, nullptr, "framebuffer"), Error);
 }
 
