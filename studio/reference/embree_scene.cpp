@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "studio/errors.h"
+#include "studio/reference/embree.h"
 #include "studio/reference/occlusion_scene.h"
 
 namespace penumbra::studio {
@@ -111,9 +110,6 @@ OcclusionScene::~OcclusionScene() = default;
 
 void OcclusionScene::trace(const glm::vec3& origin, const RayFan& rays,
                            std::span<std::uint8_t> blocked) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     RTCRay16 packet{};
     std::ranges::fill(packet.org_x, origin.x);
     std::ranges::fill(packet.org_y, origin.y);
@@ -128,7 +124,7 @@ void OcclusionScene::trace(const glm::vec3& origin, const RayFan& rays,
         std::copy_n(&rays.directionZ[first], count, packet.dir_z);
         std::copy_n(&rays.end[first], count, packet.tfar);
         for (std::size_t i = 0; i < packetSize; ++i) active[i] = i < count ? -1 : 0;
-        rtcOccluded16(active, state_->scene.get(), &context, &packet);
+        occludeCoherent(active, state_->scene.get(), packet);
         for (std::size_t i = 0; i < count; ++i) {
             blocked[first + i] = packet.tfar[i] == -std::numeric_limits<float>::infinity();
         }

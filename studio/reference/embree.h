@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Embree 3 (Debian 12) or 4 (Debian 13), whichever was found; what differs between them stands here.
+#pragma once
+
+#if PENUMBRA_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+namespace penumbra::studio {
+
+/// rtcOccluded16 for rays that go much the same way: tfar is -infinity where something blocks an active one.
+inline void occludeCoherent(const int* active, RTCScene scene, RTCRay16& rays) {
+#if PENUMBRA_EMBREE_MAJOR >= 4
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcOccluded16(active, scene, &rays, &arguments);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcOccluded16(active, scene, &context, &rays);
+#endif
+}
+
+}  // namespace penumbra::studio
