@@ -219,12 +219,14 @@ void Viewer::carryOut(const Requests& requests) {
     }
     if (requests.copyCommand) {
         attempt([&] {
+            restoreResolution();
             window_.setClipboard(renderCommand(session_, options_.data));
             say("copied: the command for this picture");
         });
     }
     if (requests.savePicture || requests.saveCanvas) {
         attempt([&] {
+            restoreResolution();
             const std::filesystem::path file = freshPictureName();
             const std::string command = renderCommand(session_, options_.data);
             if (requests.saveCanvas) {
@@ -251,18 +253,27 @@ void Viewer::updatePicture() {
     const double now_s = glfwGetTime();
     if (moving) movedAt_s_ = now_s;
     const float before = slowDown_;
-    if (!moving && now_s - movedAt_s_ > 0.25) slowDown_ = 1;
-    const float scale = session_.choices().resolutionScale * window_.pixelsPerCoordinate() * slowDown_;
-    const bool drawn =
-        session_.update(int(std::lround(place_.size.x * scale)), int(std::lround(place_.size.y * scale)));
-    constexpr double late_ms = 120, smallest = 0.3;
+    if (recorder_.active() || (!moving && now_s - movedAt_s_ > 0.25)) slowDown_ = 1;
+    const bool drawn = drawPicture();
+    constexpr double smallest = 0.3;
     if (drawn) {
         frameTimes_ms_.push_back(float(session_.milliseconds()));
         if (frameTimes_ms_.size() > frameHistory) frameTimes_ms_.erase(frameTimes_ms_.begin());
     }
-    if (moving && drawn && before == slowDown_ && session_.milliseconds() > late_ms && slowDown_ > smallest) {
+    if (moving && drawn && before == slowDown_ && session_.milliseconds() > options_.late_ms &&
+        slowDown_ > smallest) {
         slowDown_ *= 0.7f;
     }
+}
+
+bool Viewer::drawPicture() {
+    const float scale = session_.choices().resolutionScale * window_.pixelsPerCoordinate() * slowDown_;
+    return session_.update(int(std::lround(place_.size.x * scale)), int(std::lround(place_.size.y * scale)));
+}
+
+void Viewer::restoreResolution() {
+    slowDown_ = 1;
+    drawPicture();
 }
 
 void Viewer::record() {

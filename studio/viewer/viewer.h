@@ -21,6 +21,7 @@ struct ViewerOptions {
     bool keepsSettings = true;  ///< writes them when it ends
     std::filesystem::path data = dataFolder();
     std::filesystem::path pictures = std::filesystem::current_path();  ///< where pictures are saved
+    double late_ms = 120;  ///< a picture that takes longer while hands move is drawn with fewer pixels
 };
 
 class Viewer {
@@ -59,6 +60,10 @@ class Viewer {
     void carryOut(const Requests& requests);
     void open(const std::string& nameOrPath);
     void updatePicture();
+    /// Draws the picture anew where that is needed; true if it was.
+    bool drawPicture();
+    /// Whatever is kept of a picture is kept as it is at rest.
+    void restoreResolution();
     void drawCanvas();
     void drawOverlay();
     void drawLegend();

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "studio/image/atomic_file.h"
 
@@ -48,7 +49,11 @@ void ViewerTest::TearDown() {
 }
 
 ViewerOptions ViewerTest::options(const std::string& scene) const {
-    return {.scene = scene, .settings = at("viewer.json"), .data = at("data"), .pictures = folder_.path()};
+    return {.scene = scene,
+            .settings = at("viewer.json"),
+            .data = at("data"),
+            .pictures = folder_.path(),
+            .late_ms = std::numeric_limits<double>::infinity()};  // nothing hangs on the machine's speed
 }
 
 std::string ViewerTest::writeScene(const std::string& name) const {

@@ -76,6 +76,40 @@ TEST_F(ViewerTest, PicturesCarryWhatMadeThem) {
     EXPECT_EQ(shown.metadata.at("penumbra:shown"), "visibility");
 }
 
+TEST_F(ViewerTest, WhatIsKeptOfAReducedPictureIsNotReduced) {
+    start("two-boxes");
+    const int width_px = session().width_px(), height_px = session().height_px();
+    ViewerOptions hasty = options("two-boxes");
+    hasty.late_ms = 0;  // every picture is late
+    viewer_.reset();
+    viewer_ = std::make_unique<Viewer>(hasty);
+    frames(3);
+    const auto reduce = [&] {
+        Display::input(to(0.4, 0.5));
+        frames(2);
+        Display::input("mousedown 1");
+        frames(1);
+        for (const double x : {0.45, 0.5, 0.55, 0.6}) {
+            Display::input(to(x, 0.5));
+            frames(1);
+        }
+        EXPECT_LT(session().width_px(), width_px) << "the picture is not reduced, which this is about";
+    };
+    reduce();
+    key("ctrl+c");
+    EXPECT_NE(viewer().window().clipboard().find(fmt::format(" --size {}x{} ", width_px, height_px)),
+              std::string::npos)
+        << viewer().window().clipboard();
+    Display::input("mouseup 1");
+    frames(2);
+    reduce();
+    key("F2");
+    Display::input("mouseup 1");
+    frames(2);
+    EXPECT_EQ(readPng(at("two-boxes.001.png")).image.width_px, width_px) << viewer().desk().message;
+    EXPECT_EQ(readExr(at("two-boxes.001.exr")).height_px, height_px);
+}
+
 TEST_F(ViewerTest, SettingsSurviveARestart) {
     start("two-boxes");
     key("2");
