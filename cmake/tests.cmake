@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 include(GoogleTest)
 
-# penumbra_test(NAME SOURCES a_test.cpp ... LIBRARIES lib ...): one GoogleTest program, its cases known to ctest.
+# penumbra_test(NAME SOURCES a_test.cpp ... LIBRARIES lib ...): one GoogleTest program, its cases known to ctest, which also
+# knows them by the label NAME. The limit of time is there to end what hangs, on however busy a machine.
 function(penumbra_test name)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES")
     add_executable(${name} ${arg_SOURCES})
     target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} GTest::gtest_main)
     penumbra_compile_options(${name})
-    gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+    gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1200 LABELS ${name})
 endfunction()

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <set>
 #include <string>
@@ -128,6 +129,33 @@ TEST(Layout, EveryRoomHasAReadmeAndEverySourceALicence) {
             EXPECT_NE(first.find("SPDX-License-Identifier: Apache-2.0"), std::string::npos) << file;
         }
     }
+}
+
+TEST(Layout, DocumentsNameTestsThatExist) {
+    const auto textOf = [](const fs::path& file) {
+        std::ifstream stream(file);
+        return std::string(std::istreambuf_iterator<char>(stream), {});
+    };
+    // TEST(Suite, Name) with whatever ending; a parametrised suite is called by its fixture.
+    static const std::regex definition("\\bTEST(?:_F|_P)?\\((\\w+),\\s*(\\w+)\\)");
+    static const std::regex mention("`([A-Z]\\w+\\.[A-Z]\\w+)`");
+    std::set<std::string> tests;
+    for (const char* folder : {"src", "studio", "tests"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+            if (entry.path().extension() != ".cpp" || !isTest(entry.path())) continue;
+            const std::string text = textOf(entry.path());
+            for (std::sregex_iterator at(text.begin(), text.end(), definition), end; at != end; ++at) {
+                tests.insert((*at)[1].str() + "." + (*at)[2].str());
+            }
+        }
+    }
+    const std::string document = textOf(root / "docs/reliability.md");
+    int mentioned = 0;
+    for (std::sregex_iterator at(document.begin(), document.end(), mention), end; at != end;
+         ++at, ++mentioned) {
+        EXPECT_TRUE(tests.contains((*at)[1])) << "docs/reliability.md: there is no test " << (*at)[1];
+    }
+    EXPECT_GT(mentioned, 100);
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ void ViewerTest::frames(int count) {
 
 void ViewerTest::framesUntil(const std::function<bool()>& reached) {
     using Clock = std::chrono::steady_clock;
-    const auto end = Clock::now() + std::chrono::seconds(60);
+    const auto end = Clock::now() + std::chrono::minutes(10);
     while (!reached()) {
         ASSERT_LT(Clock::now(), end) << "waited in vain";
         ASSERT_TRUE(viewer_->frame(true));
