@@ -49,7 +49,7 @@ void loadPoint(const JsonView& json, float radius_m, Light& light) {
 
 Light loadPunctual(const JsonView& json, const JsonView& node) {
     Light light{.name = json.string("name")};
-    const std::string& type = json.at("type").asString();
+    const std::string type = json.at("type").asString();
     if (type == "point") {
         light.shape.shape = LightShape::sphere;
         loadPoint(json, extrasNumber(node, json, "radius", maxNumber), light);
@@ -80,7 +80,7 @@ Light loadPunctual(const JsonView& json, const JsonView& node) {
 Light loadArea(const JsonView& json) {
     Light light{.name = json.string("name")};
     const float size_m = json.numberWithin("size", 1, 0, maxNumber);
-    const std::string& type = json.at("type").asString();
+    const std::string type = json.at("type").asString();
     if (type == "rect") {
         const auto rect = json.find("rect");
         const float aspect = rect ? rect->numberWithin("aspect", 1, 0, maxNumber) : 1;
@@ -116,7 +116,7 @@ void forEachLight(const JsonView& root, const Hierarchy& hierarchy, const std::s
 
 Camera loadCamera(const JsonView& json) {
     Camera camera{.name = json.string("name")};
-    const std::string& type = json.at("type").asString();
+    const std::string type = json.at("type").asString();
     if (type == "perspective") {
         const JsonView perspective = json.at("perspective");
         camera.yfov_rad = perspective.at("yfov").asNumber();
