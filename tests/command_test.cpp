@@ -75,16 +75,37 @@ TEST_F(CommandTest, ListsWhatThereIs) {
 }
 
 TEST_F(CommandTest, WrongUseExitsWithTwo) {
-    for (const char* arguments :
-         {"", "paint", "render", "render primitives", "render primitives -o x.png --size 0x10",
-          "render primitives -o x.png --size big", "render primitives -o x.png -t harder",
-          "render primitives -o x.png -t hard --set map_size=x",
-          "render primitives -o x.png -t hard --set mapsize=1",
-          "render primitives -o x.png -t hard --set map_size", "render primitives -o x.jpg",
-          "render primitives -o x.png --size 99999999x2", "render primitives --visibility v.png",
-          "render primitives -o x.png --camera nowhere", "render primitives -o x.png --frames 5-1",
-          "render primitives -o x.png --unknown", "compare primitives -t hard,harder", "list",
-          "compare primitives --samples 1"}) {
+    for (const char* arguments : {"",
+                                  "paint",
+                                  "render",
+                                  "render primitives",
+                                  "render primitives -o x.png --size 0x10",
+                                  "render primitives -o x.png --size big",
+                                  "render primitives -o x.png -t harder",
+                                  "render primitives -o x.png -t hard --set map_size=x",
+                                  "render primitives -o x.png -t hard --set mapsize=1",
+                                  "render primitives -o x.png -t hard --set map_size",
+                                  "render primitives -o x.jpg",
+                                  "render primitives -o x.png --size 99999999x2",
+                                  "render primitives --visibility v.png",
+                                  "render primitives -o x.png --camera nowhere",
+                                  "render primitives -o x.png --frames 5-1",
+                                  "render primitives -o x.png --unknown",
+                                  "compare primitives -t hard,harder",
+                                  "list",
+                                  "compare primitives --samples 1",
+                                  "render primitives -o x.png --time nan",
+                                  "render primitives -o x.png --time inf",
+                                  "render primitives -o x.png --frames 1-2 --fps nan",
+                                  "render primitives -o x.png --frames 1-2 --fps 0",
+                                  "render primitives -o x.png -t exact:samples",
+                                  "render primitives -o x.png -t exact:samples=no",
+                                  "compare primitives -t exact,exact",
+                                  "compare primitives -t hard --set exact.samples=16",
+                                  "list techniques exactly",
+                                  "list paints",
+                                  "list parameters exactly",
+                                  "bench primitives --axes maps"}) {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.exitCode, 2) << arguments << "\n" << outcome.err;
         EXPECT_FALSE(outcome.err.empty()) << arguments;
@@ -133,6 +154,122 @@ TEST_F(CommandTest, UnknownTechniqueIsAnsweredWithTheKnownOnes) {
     EXPECT_EQ(outcome.exitCode, 2);
     EXPECT_NE(outcome.err.find("exactly"), std::string::npos);
     EXPECT_NE(outcome.err.find("reference"), std::string::npos);
+}
+
+TEST_F(CommandTest, WhatIsMisspeltIsAnsweredWithTheNearest) {
+    const std::vector<std::pair<std::string, std::string>> misspelt = {
+        {"comprae primitives", "compare"},           {"list tecniques", "techniques"},
+        {"list techniques smothies", "smoothies"},   {"render primitives -o x.png -t exat", "exact"},
+        {"bench primitives --axes light", "lights"}, {"compare primitives --flicker camra", "camera"},
+        {"reproduce kirsch2013 -o x", "kirsch2003"}};
+    for (const auto& [arguments, meant] : misspelt) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exitCode, 2) << arguments << "\n" << outcome.err;
+        EXPECT_NE(outcome.err.find("did you mean '" + meant + "'"), std::string::npos) << outcome.err;
+    }
+}
+
+TEST_F(CommandTest, ParametersAreListedAndCanAllBeSet) {
+    const Outcome listed = run("list techniques exact");
+    ASSERT_EQ(listed.exitCode, 0) << listed.err;
+    EXPECT_NE(listed.out.find("samples=64"), std::string::npos) << listed.out;
+    EXPECT_EQ(listed.out.find("map_size"), std::string::npos) << "no other technique was asked for";
+
+    const Outcome all = run("list parameters --json");
+    ASSERT_EQ(all.exitCode, 0) << all.err;
+    const auto json = nlohmann::json::parse(all.out);
+    EXPECT_GE(json.at("techniques").size(), 2u);
+    for (const auto& technique : json.at("techniques")) {
+        for (const auto& parameter : technique.at("parameters")) {
+            EXPECT_FALSE(parameter.at("help").get<std::string>().empty()) << parameter;
+            EXPECT_TRUE(parameter.contains("unit") && parameter.contains("default")) << parameter;
+            const std::string type = parameter.at("type");
+            EXPECT_EQ(parameter.contains("min"), type == "integer" || type == "real") << parameter;
+            EXPECT_EQ(parameter.contains("choices"), type == "choice") << parameter;
+        }
+    }
+    // What is printed as a default is taken as a value.
+    const auto& hard = json.at("techniques").at(0);
+    std::string set;
+    for (const auto& parameter : hard.at("parameters")) {
+        set += " --set " + parameter.at("name").get<std::string>() + "=" +
+               parameter.at("default").get<std::string>();
+    }
+    const Outcome outcome = run("render half-plane --size 8x8 -o " + at("a.png") + " -t " +
+                                hard.at("technique").get<std::string>() + set);
+    EXPECT_EQ(outcome.exitCode, 0) << set << outcome.err;
+}
+
+TEST_F(CommandTest, OneTechniqueComparesWithItselfAtOtherSettings) {
+    const Outcome outcome =
+        run("compare half-plane -t exact:samples=16,exact:samples=256,hard --set hard.map_size=64 "
+            "--size 64x48 --samples 64 --json -o " +
+            at("out"));
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto json = nlohmann::json::parse(outcome.out);
+    const auto& results = json.at("results");
+    ASSERT_EQ(results.size(), 3u);
+    EXPECT_EQ(results[0].at("technique"), "exact:samples=16");
+    EXPECT_EQ(results[1].at("technique"), "exact:samples=256");
+    EXPECT_GT(results[0].at("penumbra_rmse").get<double>(), results[1].at("penumbra_rmse").get<double>());
+
+    // The numbers again, in files that say what made them.
+    const auto file = nlohmann::json::parse(readText(at("out/results.json")));
+    EXPECT_EQ(file.at("results"), results);
+    for (const char* key : {"version", "commit", "date", "command", "processor", "driver"}) {
+        EXPECT_FALSE(file.at("made").at(key).get<std::string>().empty()) << key;
+    }
+    std::istringstream csv(readText(at("out/results.csv")));
+    std::string header, row;
+    std::getline(csv, header);
+    int rows = 0;
+    while (std::getline(csv, row)) {
+        EXPECT_EQ(std::ranges::count(row, ','), std::ranges::count(header, ',')) << row;
+        EXPECT_TRUE(row.starts_with("half-plane,")) << row;
+        ++rows;
+    }
+    EXPECT_EQ(rows, 3);
+    const ExrPicture errors = readExr(at("out/exact_samples_16.visibility.exr"));
+    const Image v = imageOf(errors, "V"), truth = imageOf(errors, "truth"), error = imageOf(errors, "error");
+    ASSERT_EQ(error.values.size(), 64u * 48u);
+    for (std::size_t i = 0; i < error.values.size(); ++i) {
+        ASSERT_EQ(error.values[i], v.values[i] - truth.values[i]) << i;
+    }
+    EXPECT_TRUE(fs::exists(at("out/exact_samples_16.png")));
+    EXPECT_NE(readText(at("out/report.html")).find("exact_samples_16.visibility.png"), std::string::npos);
+}
+
+TEST_F(CommandTest, ResultsThatDoNotArriveExitWithFive) {
+    const auto exitCode = [&](const std::string& line) {
+        const int status = std::system((line + " 2>" + at("stderr")).c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    const std::string command = PENUMBRA_COMMAND;
+    for (const std::string arguments :
+         {" list techniques", " list scenes", " --help", " info primitives", " --version"}) {
+        EXPECT_EQ(exitCode(command + arguments + " >/dev/full"), 5) << arguments;
+        EXPECT_EQ(exitCode(command + arguments + " >&-"), 5) << arguments;
+        EXPECT_NE(readText(at("stderr")).find("standard output"), std::string::npos) << arguments;
+    }
+    // A reader that has gone: the exit code is that of the command, and no signal's.
+    EXPECT_EQ(exitCode("{ " + command + " render half-plane -t hard --size 8x8 --json; echo $? >" +
+                       at("code") + "; } | true"),
+              0);
+    EXPECT_EQ(readText(at("code")), "5\n");
+    // Nothing was to be printed, so nothing is lost.
+    EXPECT_EQ(exitCode(command + " render half-plane -t hard --size 8x8 -o " + at("a.png") + " >&-"), 0);
+    EXPECT_EQ(readPng(at("a.png")).image.width_px, 8);
+}
+
+TEST_F(CommandTest, TheCommandInAPictureIsOneThatAShellReads) {
+    fs::create_directory(at("it's"));
+    const std::string file = at("it's/a.png");
+    ASSERT_EQ(run("render half-plane -t hard --size 8x8 -o \"" + file + "\"").exitCode, 0);
+    const std::string line = readPng(file).metadata.at("penumbra:command");
+    fs::remove(file);
+    const std::string again = PENUMBRA_COMMAND + line.substr(std::string("penumbra").size());
+    EXPECT_EQ(std::system(again.c_str()), 0) << line;
+    EXPECT_TRUE(fs::exists(file)) << line;
 }
 
 TEST_F(CommandTest, ExceededThresholdExitsWithOne) {

@@ -9,12 +9,18 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "studio/errors.h"
+#include "studio/scene/lights/nearest_name.h"
 #include "studio/scene/look_at.h"
 
 namespace penumbra::studio {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// What floats of an orthographic camera can hold with room to spare.
+constexpr double smallestView_m = 1e-6, largestView_m = 1e9;
 
 std::optional<int> parseInt(std::string_view text) {
     int value = 0;
@@ -59,14 +65,15 @@ void addViewFlags(CLI::App& command, SceneArguments& arguments) {
     from->needs(at);
     command.add_option("--fov", arguments.fov_deg, "degrees from bottom to top that --look-from sees")
         ->needs(from)
-        ->check(CLI::Range(0.01f, 179.0f))
+        ->check(finiteWithin(0.01, 179, "degrees"))
         ->capture_default_str();
     command
         .add_option("--ortho-height", arguments.orthoHeight_m, "metres: --look-from sees without perspective")
         ->needs(from)
         ->excludes("--fov")
-        ->check(CLI::PositiveNumber);
+        ->check(finiteWithin(smallestView_m, largestView_m, "metres"));
     command.add_option("--time", arguments.time_s, "moment of the animation, in seconds")
+        ->check(finiteWithin(-infinity, infinity, "seconds"))
         ->capture_default_str();
     command.add_option("--device", arguments.device, "index from 'penumbra list devices'");
 }
@@ -133,38 +140,80 @@ OpenedScene::OpenedScene(const SceneArguments& arguments)
     workbench.open(scene);
 }
 
-std::vector<std::string> techniqueNames(const std::string& list) {
-    std::vector<std::string> names;
-    if (list == "all") {
-        for (const TechniqueInfo& info : techniqueCatalog()) names.emplace_back(info.name);
-        return names;
-    }
+Contender parseTechnique(const std::string& text) {
+    std::vector<std::string> parts = CLI::detail::split(text, ':');
+    Contender contender{.label = text, .technique = parts.front(), .settings = {}};
     std::vector<std::string_view> known;
     for (const TechniqueInfo& info : allTechniques()) known.push_back(info.name);
-    for (const std::string& name : CLI::detail::split(list, ',')) {
-        if (std::ranges::find(known, name) == known.end()) {
-            throw UsageError(
-                fmt::format("there is no technique '{}'; there are: {}", name, fmt::join(known, ", ")));
-        }
-        names.push_back(name);
+    if (std::ranges::find(known, contender.technique) == known.end()) {
+        throw UsageError(fmt::format("there is no technique '{}'; there are: {}{}", contender.technique,
+                                     fmt::join(known, ", "), didYouMean(contender.technique, known)));
     }
-    return names;
-}
-
-std::vector<std::pair<std::string, std::string>> parseSettings(const std::vector<std::string>& settings) {
-    std::vector<std::pair<std::string, std::string>> parsed;
-    for (const std::string& setting : settings) {
-        const std::size_t equals = setting.find('=');
+    for (auto part = parts.begin() + 1; part != parts.end(); ++part) {
+        const std::size_t equals = part->find('=');
         if (equals == std::string::npos) {
-            throw UsageError(fmt::format("--set '{}' is not KEY=VALUE", setting));
+            throw UsageError(fmt::format("-t '{}': '{}' is not KEY=VALUE, for instance {}:samples=64", text,
+                                         *part, contender.technique));
         }
-        parsed.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+        contender.settings.emplace_back(part->substr(0, equals), part->substr(equals + 1));
     }
-    return parsed;
+    return contender;
 }
 
-void applySettings(Technique& technique, const std::vector<std::string>& settings) {
-    for (const auto& [name, value] : parseSettings(settings)) setParameter(technique, name, value);
+std::vector<Contender> parseContenders(const std::string& list, const std::vector<std::string>& settings) {
+    std::vector<Contender> contenders;
+    if (list == "all") {
+        for (const TechniqueInfo& info : techniqueCatalog()) {
+            contenders.push_back(parseTechnique(std::string(info.name)));
+        }
+    } else {
+        for (const std::string& text : CLI::detail::split(list, ',')) {
+            const Contender& added = contenders.emplace_back(parseTechnique(text));
+            if (std::ranges::count(contenders, added.label, &Contender::label) > 1) {
+                throw UsageError(fmt::format("-t '{}' names '{}' twice", list, text));
+            }
+        }
+    }
+    for (const std::string& text : settings) {
+        const Setting setting = parseSetting(text);
+        bool used = false;
+        for (Contender& contender : contenders) {
+            if (!setting.technique.empty() && setting.technique != contender.technique) continue;
+            contender.settings.emplace_back(setting.key, setting.value);
+            used = true;
+        }
+        if (!used) {
+            throw UsageError(
+                fmt::format("--set '{}': '{}' is none of the techniques of -t", text, setting.technique));
+        }
+    }
+    return contenders;
+}
+
+Setting parseSetting(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) throw UsageError(fmt::format("--set '{}' is not KEY=VALUE", text));
+    const std::size_t dot = text.find('.');
+    const bool named = dot < equals;
+    return {.technique = named ? text.substr(0, dot) : "",
+            .key = named ? text.substr(dot + 1, equals - dot - 1) : text.substr(0, equals),
+            .value = text.substr(equals + 1)};
+}
+
+CLI::Validator finiteWithin(double low, double high, const std::string& unit) {
+    const std::string legal = std::isfinite(high)
+                                  ? fmt::format("a number from {:g} to {:g} {}", low, high, unit)
+                              : low > 0 ? fmt::format("a number of at least {:g} {}", low, unit)
+                                        : fmt::format("a finite number of {}", unit);
+    return CLI::Validator(
+        [=](const std::string& text) {
+            double value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool good = error == std::errc() && end == text.data() + text.size() &&
+                              std::isfinite(value) && value >= low && value <= high;
+            return good ? std::string() : fmt::format("'{}' is not {}", text, legal);
+        },
+        "");
 }
 
 Metadata pictureMetadata(const std::string& commandLine) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "studio/bench/contest.h"
 #include "studio/image/image.h"
 #include "studio/scene/open_scene.h"
 #include "studio/workbench/workbench.h"
@@ -57,15 +58,24 @@ struct OpenedScene {
     Workbench workbench;
 };
 
-/// "NAME,NAME" or "all" as names, each of which exists. `all` means the library's catalog, without the
-/// reference.
-std::vector<std::string> techniqueNames(const std::string& list);
+/// A technique as -t names it: NAME, or NAME:KEY=VALUE:KEY=VALUE. Throws UsageError with the nearest name.
+Contender parseTechnique(const std::string& text);
 
-/// Every "KEY=VALUE" as key and value. Throws UsageError.
-std::vector<std::pair<std::string, std::string>> parseSettings(const std::vector<std::string>& settings);
+/// What -t names, one or several with commas between, or "all": the library's catalog, without the reference.
+/// On top come the --set: "KEY=VALUE" for all of them, "NAME.KEY=VALUE" for those of one technique. Throws
+/// UsageError.
+std::vector<Contender> parseContenders(const std::string& list, const std::vector<std::string>& settings);
 
-/// Applies every "KEY=VALUE" to `technique`. Throws UsageError.
-void applySettings(Technique& technique, const std::vector<std::string>& settings);
+/// A --set: "KEY=VALUE", or "NAME.KEY=VALUE" for one technique.
+struct Setting {
+    std::string technique;  ///< empty: whichever is in use
+    std::string key, value;
+};
+/// Throws UsageError.
+Setting parseSetting(const std::string& text);
+
+/// Finite numbers from `low` to `high`, for options; `unit` is for the message.
+CLI::Validator finiteWithin(double low, double high, const std::string& unit);
 
 /// What every picture carries.
 Metadata pictureMetadata(const std::string& commandLine);

@@ -10,6 +10,7 @@
 #include "apps/penumbra/commands.h"
 #include "studio/bench/bench_report.h"
 #include "studio/errors.h"
+#include "studio/scene/lights/nearest_name.h"
 #include "studio/workbench/progress.h"
 
 namespace penumbra::studio {
@@ -39,8 +40,8 @@ std::vector<AxisInfo> parseAxes(const std::string& list) {
         if (found == known.end()) {
             std::vector<std::string_view> names;
             for (const AxisInfo& axis : known) names.push_back(axis.name);
-            throw UsageError(
-                fmt::format("there is no axis '{}'; there are: {}", name, fmt::join(names, ", ")));
+            throw UsageError(fmt::format("there is no axis '{}'; there are: {}{}", name,
+                                         fmt::join(names, ", "), didYouMean(name, names)));
         }
         axes.push_back(*found);
     }
@@ -52,7 +53,7 @@ void bench(const BenchArguments& arguments) {
     if (!arguments.output.empty()) requireWritableFolder(arguments.output, true);
     OpenedScene opened(arguments.scene);
     const std::vector<Contender> contenders =
-        contendersOf(techniqueNames(arguments.techniques), parseSettings(arguments.settings));
+        contendersOf(parseContenders(arguments.techniques, arguments.settings));
     for (const Contender& contender : contenders) {
         // A wrong parameter ends here, not as a technique that is missing.
         makeTechnique(opened.workbench, contender);
@@ -74,7 +75,7 @@ void bench(const BenchArguments& arguments) {
     } else if (arguments.samples > 0) {
         report.quality =
             measureQuality(opened.workbench, opened.scene, opened.moment, opened.camera, opened.size,
-                           qualityLadder(), arguments.samples, arguments.rounds,
+                           qualityLadder(contenders), arguments.samples, arguments.rounds,
                            [&](double share, const std::string& stage) { progress.update(share, stage); });
     }
     for (const AxisInfo& axis : axes) {
@@ -99,10 +100,14 @@ void addBench(CLI::App& app) {
         app.add_subcommand("bench", "what techniques cost, as ratios to hard in the same run");
     auto arguments = std::make_shared<BenchArguments>();
     arguments->scene.addTo(*command);
-    command->add_option("-t,--technique", arguments->techniques, "NAME,NAME or all")->capture_default_str();
+    command
+        ->add_option("-t,--technique", arguments->techniques,
+                     "NAME,NAME or all; NAME:KEY=VALUE sets a parameter")
+        ->capture_default_str();
     command
         ->add_option("--set", arguments->settings,
-                     "KEY=VALUE: a parameter of the techniques other than hard; may be repeated")
+                     "KEY=VALUE: a parameter of the techniques other than hard, NAME.KEY=VALUE of one; may "
+                     "be repeated")
         ->take_all();
     command->add_option("--rounds", arguments->rounds, "measured rounds on SCENE")
         ->capture_default_str()

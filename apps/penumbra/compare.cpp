@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <ctime>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "apps/penumbra/arguments.h"
 #include "apps/penumbra/commands.h"
+#include "studio/bench/bench_report.h"
 #include "studio/bench/judge.h"
 #include "studio/errors.h"
 #include "studio/image/atomic_file.h"
 #include "studio/report/ranking.h"
 #include "studio/scene/builtin/builtin.h"
+#include "studio/scene/lights/nearest_name.h"
 #include "studio/workbench/progress.h"
 
 namespace penumbra::studio {
@@ -101,7 +106,9 @@ std::optional<FlickerMotion> parseFlicker(const std::string& name) {
     if (name == "animation") return FlickerMotion::animation;
     if (name == "camera") return FlickerMotion::camera;
     if (name == "light") return FlickerMotion::light;
-    throw UsageError(fmt::format("--flicker '{}' is not animation, camera or light", name));
+    constexpr std::array<std::string_view, 3> known = {"animation", "camera", "light"};
+    throw UsageError(
+        fmt::format("--flicker '{}' is not animation, camera or light{}", name, didYouMean(name, known)));
 }
 
 /// "all" as the names of the built-in scenes.
@@ -113,8 +120,9 @@ std::vector<std::string> sceneNames(const std::vector<std::string>& scenes) {
 }
 
 Comparison compareScene(const SceneArguments& scene, const std::vector<Contender>& contenders, int samples,
-                        std::optional<FlickerMotion> flicker) {
+                        std::optional<FlickerMotion> flicker, Machine& machine) {
     OpenedScene opened(scene);
+    machine = thisMachine(opened.workbench);
     if (flicker == FlickerMotion::animation && opened.scene.animations.empty()) {
         throw UsageError(fmt::format("{} has no animation: ask for --flicker camera or light", scene.scene));
     }
@@ -138,6 +146,19 @@ std::filesystem::path folderOf(const std::filesystem::path& output, const std::s
     return alone ? output : output / std::filesystem::path(scene).stem();
 }
 
+/// What a figure in a paper must be able to say of itself.
+nlohmann::ordered_json provenanceOf(const Machine& machine, const std::string& commandLine) {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    return {{"version", PENUMBRA_VERSION},
+            {"commit", machine.commit},
+            {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", utc)},
+            {"command", commandLine},
+            {"processor", machine.processor},
+            {"driver", machine.driver}};
+}
+
 void compare(const CompareArguments& arguments, const std::string& commandLine) {
     const std::vector<std::string> scenes = sceneNames(arguments.scenes);
     const std::vector<Threshold> thresholds = parseThresholds(arguments.thresholds);
@@ -145,11 +166,7 @@ void compare(const CompareArguments& arguments, const std::string& commandLine) 
     if (!flicker && std::ranges::find(thresholds, "flicker", &Threshold::metric) != thresholds.end()) {
         throw UsageError("--fail-above flicker needs --flicker, which says what moves");
     }
-    std::vector<Contender> contenders;
-    for (const std::string& name : techniqueNames(arguments.techniques)) {
-        contenders.push_back(
-            {.label = name, .technique = name, .settings = parseSettings(arguments.settings)});
-    }
+    const std::vector<Contender> contenders = parseContenders(arguments.techniques, arguments.settings);
     const bool alone = scenes.size() == 1;
     if (!alone) requireScenes(scenes, arguments.view);
     if (!arguments.output.empty()) {
@@ -165,11 +182,12 @@ void compare(const CompareArguments& arguments, const std::string& commandLine) 
     }
 
     std::vector<Comparison> comparisons;
+    Machine machine;
     for (const std::string& name : scenes) {
         SceneArguments scene = arguments.view;
         scene.scene = name;
         Comparison& comparison =
-            comparisons.emplace_back(compareScene(scene, contenders, arguments.samples, flicker));
+            comparisons.emplace_back(compareScene(scene, contenders, arguments.samples, flicker, machine));
         comparison.command = commandLine;
         if (!arguments.output.empty()) {
             writeComparison(folderOf(arguments.output, name, alone), comparison,
@@ -181,8 +199,17 @@ void compare(const CompareArguments& arguments, const std::string& commandLine) 
         writeFileAtomically(folder / "report.html", toHtml(comparisons, commandLine));
         writeFileAtomically(folder / "tables.md", toMarkdown(comparisons));
     }
+    const nlohmann::ordered_json results = alone ? toJson(comparisons.front()) : toJson(comparisons);
+    if (!arguments.output.empty()) {
+        const std::filesystem::path folder = arguments.output;
+        nlohmann::ordered_json file = {{"made", provenanceOf(machine, commandLine)}};
+        file.update(results);
+        writeFileAtomically(folder / "results.json", file.dump(2) + "\n");
+        writeFileAtomically(folder / "results.csv", toCsv(comparisons));
+        spdlog::info("pictures, EXR, report.html, results.json and results.csv are in {}", folder.string());
+    }
     if (arguments.json) {
-        std::cout << (alone ? toJson(comparisons.front()) : toJson(comparisons)).dump(2) << "\n";
+        std::cout << results.dump(2) << "\n";
     } else {
         for (const Comparison& comparison : comparisons) {
             if (!alone) std::cout << comparison.scene << "\n";
@@ -203,14 +230,17 @@ void addCompare(CLI::App& app, const std::string& commandLine) {
                      "glTF 2.0 files (.gltf, .glb) or names of built-in scenes; 'all': all built-in ones")
         ->required();
     arguments->view.addFlagsTo(*command);
-    command->add_option("-t,--technique", arguments->techniques, "NAME,NAME or all")->capture_default_str();
+    command
+        ->add_option("-t,--technique", arguments->techniques,
+                     "NAME,NAME or all; NAME:KEY=VALUE sets a parameter")
+        ->capture_default_str();
     command->add_option("-o,--output", arguments->output,
-                        "a folder for pictures, differences and report.html");
+                        "a folder for pictures, EXR, report.html, results.json and results.csv");
     command->add_option("--samples", arguments->samples, "rays for each pixel of the reference")
         ->capture_default_str();
     command
         ->add_option("--set", arguments->settings,
-                     "KEY=VALUE: a parameter of the techniques; may be repeated")
+                     "KEY=VALUE: a parameter of the techniques, NAME.KEY=VALUE of one; may be repeated")
         ->take_all();
     command->add_option(
         "--flicker", arguments->flicker,

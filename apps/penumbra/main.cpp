@@ -1,17 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // The penumbra command. Results go to standard output, everything else to standard error.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <iostream>
 #include <new>
+#include <span>
 
 #include "apps/penumbra/commands.h"
 #include "penumbra/device.h"
 #include "studio/context/headless_context.h"
 #include "studio/errors.h"
+#include "studio/image/atomic_file.h"
+#include "studio/scene/lights/nearest_name.h"
+#include "studio/workbench/shell_word.h"
 
 namespace {
 
@@ -30,13 +43,46 @@ void startLog() {
 
 std::string joinArguments(int argc, char** argv) {
     std::string line = "penumbra";
-    for (int i = 1; i < argc; ++i) {
-        const std::string argument = argv[i];
-        const bool plain =
-            !argument.empty() && argument.find_first_of(" \t'\"$\\*?;&|<>()") == std::string::npos;
-        line += plain ? " " + argument : " '" + argument + "'";
-    }
+    for (int i = 1; i < argc; ++i) line += " " + studio::shellWord(argv[i]);
     return line;
+}
+
+/// Standard streams that are closed would be given to whatever file is opened next; they get the null device,
+/// one that cannot be written to for standard output, so that lost results are noticed.
+void takeClosedStreams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (fcntl(stream, F_GETFD) != -1) continue;
+        [[maybe_unused]] const int lowest = open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+    }
+}
+
+/// Throws OutputError unless all that was printed has arrived.
+void requirePrinted() {
+    errno = 0;
+    const bool printed = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    if (printed) return;
+    throw studio::OutputError(fmt::format("standard output: {}; the results are not complete",
+                                          errno != 0 ? std::strerror(errno) : "cannot be written"));
+}
+
+/// The first word must name one of `app`'s subcommands, and so on within it. Throws UsageError with the
+/// nearest.
+void requireSubcommand(const CLI::App& app, std::span<char* const> words) {
+    const std::vector<const CLI::App*> known = app.get_subcommands({});
+    if (known.empty()) return;
+    const auto word = std::ranges::find_if(words, [](std::string_view w) { return !w.starts_with('-'); });
+    if (word == words.end()) return;  // which the parser reports, or prints the help that was asked for
+    std::vector<std::string> names;
+    for (const CLI::App* subcommand : known) names.push_back(subcommand->get_name());
+    const auto found = std::ranges::find(names, std::string_view(*word));
+    if (found == names.end()) {
+        const std::vector<std::string_view> views(names.begin(), names.end());
+        throw studio::UsageError(fmt::format("there is no '{} {}'; there are: {}{}",
+                                             app.get_parent() ? "penumbra " + app.get_name() : "penumbra",
+                                             *word, fmt::join(names, ", "),
+                                             studio::didYouMean(*word, views)));
+    }
+    requireSubcommand(*known[std::size_t(found - names.begin())], {word + 1, words.end()});
 }
 
 int exitCodeOf(penumbra::Error::Kind kind) {
@@ -61,7 +107,13 @@ int report(int code, std::string_view message) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    takeClosedStreams();
     startLog();
+    // A reader that has gone and a file that may not grow are errors of writing, with a message and an exit
+    // code.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+    studio::removeUnfinishedFilesOnSignals();
     CLI::App app("Soft shadows of lights that have a size, in real time, judged by ray tracing");
     app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION);
     app.require_subcommand(1);
@@ -83,10 +135,17 @@ int main(int argc, char** argv) {
     studio::addList(app);
 
     try {
-        app.parse(argc, argv);
+        requireSubcommand(app, {argv + 1, argv + argc});
+        try {
+            app.parse(argc, argv);
+        } catch (const CLI::Success& help) {
+            app.exit(help);
+        } catch (const studio::ThresholdError&) {
+            requirePrinted();
+            throw;
+        }
+        requirePrinted();
         return done;
-    } catch (const CLI::Success& success) {
-        return app.exit(success);
     } catch (const CLI::Error& error) {
         return report(usage, fmt::format("{} (see 'penumbra --help')", error.what()));
     } catch (const studio::ThresholdError& error) {
@@ -104,6 +163,7 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return report(input, "not enough memory for this scene at this size");
     } catch (const std::exception& error) {
+        if (std::ferror(stdout) != 0) return report(output, fmt::format("standard output: {}", error.what()));
         return report(failed, fmt::format("unexpected: {}", error.what()));
     }
 }

@@ -21,6 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// From a frame in ten days to more than any machine makes.
+constexpr double slowest_fps = 1e-6, fastest_fps = 1e6;
+
 /// --frames A-B[xSTEP]
 struct FrameRange {
     int first = 0, last = 0, step = 1;
@@ -117,19 +120,24 @@ nlohmann::ordered_json statisticsJson(const Statistics& statistics) {
 class RenderTechniques {
   public:
     RenderTechniques(Workbench& workbench, const RenderArguments& arguments, const std::vector<Light>& lights)
-        : main_(arguments.technique) {
-        make(workbench, main_);
+        : main_(parseTechnique(arguments.technique).technique) {
+        make(workbench, parseTechnique(arguments.technique));
         for (const std::string& text : arguments.techniqueOfLight) {
-            // A light's name may hold '=', a technique's does not.
-            const std::size_t equals = text.rfind('=');
-            const std::string light = text.substr(0, equals);
-            if (equals == std::string::npos || std::ranges::count(lights, light, &Light::name) == 0) {
+            // Both a light's name and a technique's settings may hold '=': the longest name that fits is
+            // meant.
+            const Light* light = nullptr;
+            for (const Light& candidate : lights) {
+                if (!text.starts_with(candidate.name + "=")) continue;
+                if (light == nullptr || candidate.name.size() > light->name.size()) light = &candidate;
+            }
+            if (light == nullptr) {
                 throw UsageError(
                     fmt::format("--technique-of '{}' is not LIGHT=NAME; the scene's lights are: {}", text,
                                 namesOf(lights)));
             }
-            nameOfLight_[light] = text.substr(equals + 1);
-            make(workbench, nameOfLight_[light]);
+            const Contender wanted = parseTechnique(text.substr(light->name.size() + 1));
+            nameOfLight_[light->name] = wanted.technique;
+            make(workbench, wanted);
         }
         for (const std::string& setting : arguments.settings) set(setting);
     }
@@ -141,20 +149,21 @@ class RenderTechniques {
     }
 
   private:
-    void make(Workbench& workbench, const std::string& name) {
-        if (!techniques_.contains(name)) techniques_[name] = workbench.makeTechnique(name);
+    void make(Workbench& workbench, const Contender& wanted) {
+        std::unique_ptr<Technique>& technique = techniques_[wanted.technique];
+        if (technique == nullptr) technique = workbench.makeTechnique(wanted.technique);
+        for (const auto& [key, value] : wanted.settings) setParameter(*technique, key, value);
     }
 
-    /// "KEY=VALUE" is for the technique of -t, "NAME.KEY=VALUE" for another one in use.
-    void set(const std::string& setting) {
-        const std::size_t dot = setting.find('.');
-        if (dot == std::string::npos || dot > setting.find('=')) return applySettings(main(), {setting});
-        const auto found = techniques_.find(setting.substr(0, dot));
+    /// "KEY=VALUE" is for the technique of -t, "NAME.KEY=VALUE" for one in use.
+    void set(const std::string& text) {
+        const Setting setting = parseSetting(text);
+        const auto found = techniques_.find(setting.technique.empty() ? main_ : setting.technique);
         if (found == techniques_.end()) {
             throw UsageError(
-                fmt::format("--set '{}': no light uses the technique '{}'", setting, setting.substr(0, dot)));
+                fmt::format("--set '{}': no light uses the technique '{}'", text, setting.technique));
         }
-        applySettings(*found->second, {setting.substr(dot + 1)});
+        setParameter(*found->second, setting.key, setting.value);
     }
 
     static std::string namesOf(const std::vector<Light>& lights) {
@@ -217,7 +226,6 @@ class RenderCommand {
             throw UsageError(
                 "nothing to do: ask for a picture (-o), the visibility (--visibility) or --json");
         }
-        if (!(arguments_.framesPerSecond > 0)) throw UsageError("--fps must be positive");
     }
 
     Outputs outputsOf(int frame) const {
@@ -271,7 +279,9 @@ void addRender(CLI::App& app, const std::string& commandLine) {
     CLI::App* command = app.add_subcommand("render", "render a picture, its visibility, or an animation");
     auto arguments = std::make_shared<RenderArguments>();
     arguments->scene.addTo(*command);
-    command->add_option("-t,--technique", arguments->technique, "see 'penumbra list techniques'")
+    command
+        ->add_option("-t,--technique", arguments->technique,
+                     "NAME, or NAME:KEY=VALUE with a parameter; see 'penumbra list techniques'")
         ->capture_default_str();
     command
         ->add_option("--technique-of", arguments->techniqueOfLight,
@@ -289,6 +299,7 @@ void addRender(CLI::App& app, const std::string& commandLine) {
     command->add_option("--frames", arguments->frames,
                         "A-B or A-BxSTEP: an animation, into numbered files (#### in -o)");
     command->add_option("--fps", arguments->framesPerSecond, "frames for each second of the animation")
+        ->check(finiteWithin(slowest_fps, fastest_fps, "frames a second"))
         ->capture_default_str();
     command->add_flag("--skip-existing", arguments->skipExisting, "leave out frames whose files are there");
     command->add_flag("--json", arguments->json, "print statistics as JSON");

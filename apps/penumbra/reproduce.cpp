@@ -11,6 +11,7 @@
 #include "studio/errors.h"
 #include "studio/image/atomic_file.h"
 #include "studio/papers/paper_report.h"
+#include "studio/scene/lights/nearest_name.h"
 #include "studio/workbench/progress.h"
 
 namespace penumbra::studio {
@@ -41,7 +42,8 @@ std::vector<Paper> papersOf(const std::string& name) {
         if (name == entry.name || name == "all") chosen.push_back(entry.make());
     }
     if (chosen.empty()) {
-        throw UsageError(fmt::format("there is no paper '{}'; there are: {}", name, fmt::join(names, ", ")));
+        throw UsageError(fmt::format("there is no paper '{}'; there are: {}{}", name, fmt::join(names, ", "),
+                                     didYouMean(name, names)));
     }
     return chosen;
 }
@@ -78,7 +80,8 @@ void addReproduce(CLI::App& app, const std::string& commandLine) {
         app.add_subcommand("reproduce", "the figures and tables of the papers, measured again");
     auto arguments = std::make_shared<ReproduceArguments>();
     command
-        ->add_option("PAPER", arguments->paper, "kirsch2003, thesis, smoothies2003, schwaerzler2012, or all")
+        ->add_option("PAPER", arguments->paper,
+                     "one of: kirsch2003, thesis, smoothies2003, schwaerzler2012, all")
         ->required();
     command->add_option("-o,--output", arguments->output, "a folder for PAPER.html")->required();
     command->add_option("--size", arguments->view.size, "WIDTHxHEIGHT in pixels of every picture")

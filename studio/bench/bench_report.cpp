@@ -28,6 +28,12 @@ nlohmann::ordered_json toJson(const Spread& spread) {
     return {{"median", spread.median}, {"low", spread.low}, {"high", spread.high}};
 }
 
+nlohmann::ordered_json settingsOf(const Contender& contender) {
+    nlohmann::ordered_json json = nlohmann::json::object();
+    for (const auto& [key, value] : contender.settings) json[key] = value;
+    return json;
+}
+
 nlohmann::ordered_json toJson(const std::vector<ContestResult>& results) {
     nlohmann::ordered_json json = nlohmann::json::array();
     for (const ContestResult& result : results) {
@@ -36,6 +42,7 @@ nlohmann::ordered_json toJson(const std::vector<ContestResult>& results) {
             continue;
         }
         json.push_back({{"technique", result.contender.label},
+                        {"settings", settingsOf(result.contender)},
                         {"rounds", result.rounds},
                         {"ms", toJson(result.cost_ms)},
                         {"ratio_to_hard", toJson(result.ratio)},
@@ -134,6 +141,7 @@ nlohmann::ordered_json toJson(const BenchReport& report) {
                                    {"results", toJson(report.results)}};
     for (const QualityPoint& point : report.quality) {
         json["quality"].push_back({{"technique", point.contender.label},
+                                   {"settings", settingsOf(point.contender)},
                                    {"ratio_to_hard", point.ratioToHard},
                                    {"penumbra_rmse", point.penumbra_rmse},
                                    {"leak", point.leak},

@@ -71,7 +71,9 @@ class ContestTest : public ::testing::Test {
 };
 
 TEST_F(ContestTest, MeasuresEveryRoundAndRatiosToTheYardstick) {
-    const auto results = run(contendersOf(std::vector<std::string>{"hard", "pcss"}), {.rounds = 3});
+    const auto results = run(contendersOf(std::vector<Contender>{{.label = "hard", .technique = "hard"},
+                                                                 {.label = "pcss", .technique = "pcss"}}),
+                             {.rounds = 3});
     ASSERT_EQ(results.size(), 2u);
     EXPECT_EQ(results[0].contender.label, "hard");
     for (const ContestResult& result : results) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
+#include <iterator>
 
 #include "studio/bench/device_memory.h"
 #include "studio/frame/conversions.h"
@@ -132,12 +133,10 @@ std::vector<ContestResult> runContest(Workbench& workbench, const SceneMoment& m
     return results;
 }
 
-std::vector<Contender> contendersOf(std::span<const std::string> names,
-                                    const std::vector<std::pair<std::string, std::string>>& settings) {
+std::vector<Contender> contendersOf(std::span<const Contender> others) {
     std::vector<Contender> contenders{{.label = "hard", .technique = "hard", .settings = {}}};
-    for (const std::string& name : names) {
-        if (name != "hard") contenders.push_back({.label = name, .technique = name, .settings = settings});
-    }
+    std::ranges::copy_if(others, std::back_inserter(contenders),
+                         [](const Contender& other) { return other.label != "hard"; });
     return contenders;
 }
 

@@ -63,9 +63,8 @@ std::vector<ContestResult> runContest(Workbench& workbench, const SceneMoment& m
                                       PictureSize size, std::span<const Contender> contenders,
                                       const ContestOptions& options);
 
-/// The contenders for a bench: `hard` first, with its defaults, then `names` (without `hard`) with
-/// `settings`.
-std::vector<Contender> contendersOf(std::span<const std::string> names,
-                                    const std::vector<std::pair<std::string, std::string>>& settings = {});
+/// The contenders for a bench: `hard` first, with its defaults, then `others` but for one that is called so,
+/// too.
+std::vector<Contender> contendersOf(std::span<const Contender> others);
 
 }  // namespace penumbra::studio

@@ -39,9 +39,10 @@ void markFront(std::vector<QualityPoint>& points) {
 
 }  // namespace
 
-std::vector<Contender> qualityLadder() {
+std::vector<Contender> qualityLadder(std::span<const Contender> asked) {
     std::vector<Contender> contenders = contendersOf({});
     for (const Ladder& ladder : ladders()) {
+        if (std::ranges::find(asked, ladder.technique, &Contender::technique) == asked.end()) continue;
         for (const std::string& step : ladder.steps) {
             Contender& contender = contenders.emplace_back();
             contender.label = ladder.technique + " " + step;

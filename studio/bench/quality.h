@@ -12,8 +12,8 @@
 namespace penumbra::studio {
 
 /// Every technique of the catalog with its own knob of quality turned from low to high; the first is `hard`
-/// with its defaults.
-std::vector<Contender> qualityLadder();
+/// with its defaults. Of the others only those that `asked` names.
+std::vector<Contender> qualityLadder(std::span<const Contender> asked);
 
 struct QualityPoint {
     Contender contender;

@@ -6,7 +6,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <climits>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -48,19 +52,72 @@ std::string remedyFor(int error) {
         fmt::format("cannot write '{}': {}; {}", path.string(), std::strerror(error), remedyFor(error)));
 }
 
+/// Names of files that are being written, where a signal handler may read them: fixed memory, no locks.
+class UnfinishedFiles {
+  public:
+    /// A place for `name`, which must stay until it is given back; null where all are taken or it is too
+    /// long.
+    std::atomic<bool>* add(const std::string& name) {
+        for (Entry& entry : entries_) {
+            if (name.size() >= entry.name.size() || entry.taken.exchange(true)) continue;
+            std::memcpy(entry.name.data(), name.c_str(), name.size() + 1);
+            entry.isThere = true;
+            return &entry.isThere;
+        }
+        return nullptr;
+    }
+    void remove(std::atomic<bool>* place) {
+        for (Entry& entry : entries_) {
+            if (&entry.isThere != place) continue;
+            entry.isThere = false;
+            entry.taken = false;
+        }
+    }
+    /// May be called in a signal handler.
+    void unlinkAll() const {
+        for (const Entry& entry : entries_) {
+            if (entry.isThere) ::unlink(entry.name.data());
+        }
+    }
+
+  private:
+    struct Entry {
+        std::atomic<bool> taken = false, isThere = false;
+        std::array<char, PATH_MAX> name{};
+    };
+    std::array<Entry, 8> entries_;
+};
+
+/// A signal handler has no other way to them.
+UnfinishedFiles unfinishedFiles;
+
+void removeAndEnd(int signal) {
+    unfinishedFiles.unlinkAll();
+    ::raise(signal);  // which has its default effect again
+}
+
 /// A new file beside `target`; removed again unless it was renamed over it.
 class TemporaryFile {
   public:
-    explicit TemporaryFile(const fs::path& target)
-        : target_(target), name_((target.parent_path() / ".penumbra-XXXXXX.tmp").string()) {
-        descriptor_ = ::mkostemps(name_.data(), 4, O_CLOEXEC);
-        if (descriptor_ < 0) fail(target_, errno);
+    explicit TemporaryFile(const fs::path& target) : target_(target) {
+        static std::atomic<unsigned> count = 0;
+        do {
+            unfinishedFiles.remove(place_);
+            name_ = (target.parent_path() / fmt::format(".penumbra-{}-{}.tmp", ::getpid(), count++)).string();
+            place_ = unfinishedFiles.add(name_);
+            descriptor_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+        } while (descriptor_ < 0 && errno == EEXIST);
+        if (descriptor_ >= 0) return;
+        const int error = errno;
+        unfinishedFiles.remove(place_);
+        fail(target_, error);
     }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
     ~TemporaryFile() {
         if (descriptor_ >= 0) ::close(descriptor_);
         if (!renamed_) ::unlink(name_.c_str());
+        unfinishedFiles.remove(place_);
     }
 
     void write(std::span<const std::byte> bytes) {
@@ -73,7 +130,7 @@ class TemporaryFile {
     }
 
     void renameOverTarget() {
-        // mkostemps makes the file private; give it the mode that an ordinary new file has. The mask can only
+        // The file is private so far; give it the mode that an ordinary new file has. The mask can only
         // be read by setting it, which other threads would see, hence Linux's own account of it is asked
         // instead.
         if (::fchmod(descriptor_, 0666 & ~currentUmask()) != 0) fail(target_, errno);
@@ -94,11 +151,24 @@ class TemporaryFile {
 
     fs::path target_;
     std::string name_;
+    std::atomic<bool>* place_ = nullptr;  ///< among the unfinished
     int descriptor_ = -1;
     bool renamed_ = false;
 };
 
 }  // namespace
+
+void removeUnfinishedFilesOnSignals() {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction before {};
+        ::sigaction(signal, nullptr, &before);
+        if (before.sa_handler == SIG_IGN) continue;
+        struct sigaction action {};
+        action.sa_handler = removeAndEnd;
+        action.sa_flags = int(SA_RESETHAND);
+        ::sigaction(signal, &action, nullptr);
+    }
+}
 
 void writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes) {
     std::error_code ignored;

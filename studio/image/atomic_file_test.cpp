@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
+#include <thread>
 
 #include "studio/errors.h"
 #include "studio/image/test_folder.h"
@@ -95,6 +98,26 @@ TEST(AtomicFile, AWriteThatFailsHalfwayLeavesTheOldFileAndNoOther) {
     EXPECT_NE(message.find("free some space"), std::string::npos) << message;
     EXPECT_EQ(textOf(folder / "a.txt"), "old");
     EXPECT_EQ(folder.fileCount(), 1);
+}
+
+TEST(AtomicFile, ASignalLeavesNoUnfinishedFile) {
+    const TestFolder folder;
+    for (int i = 0; i < 20; ++i) {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            std::signal(SIGINT, SIG_DFL);  // which a shell's background jobs ignore
+            removeUnfinishedFilesOnSignals();
+            const std::string text(1'000'000, 'x');  // so that nearly always one is being written
+            for (;;) writeFileAtomically(folder / "a.txt", text);
+        }
+        ASSERT_GT(child, 0);
+        while (!std::filesystem::exists(folder / "a.txt")) std::this_thread::yield();
+        ::kill(child, i % 2 == 0 ? SIGTERM : SIGINT);
+        int status = 0;
+        ASSERT_EQ(::waitpid(child, &status, 0), child);
+        EXPECT_TRUE(WIFSIGNALED(status)) << "the signal must have its usual effect";
+        EXPECT_EQ(folder.fileCount(), 1);
+    }
 }
 
 TEST(ReadWholeFile, RefusesWhatItCannotRead) {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "studio/image/atomic_file.h"
@@ -21,21 +23,44 @@ nlohmann::ordered_json spreadOf(const std::vector<double>& milliseconds) {
     return {{"median", medianOf(milliseconds)}, {"min", low}, {"max", high}};
 }
 
+/// The numbers behind the pictures: channels V, truth and error (V - truth), or V.R, V.G ... for a textured
+/// light.
+void writeErrors(const std::filesystem::path& file, const Image& truth, const Image& visibility,
+                 const Metadata& metadata) {
+    Image error = visibility;
+    for (std::size_t i = 0; i < error.values.size(); ++i) error.values[i] -= truth.values[i];
+    ExrPicture picture{truth.width_px, truth.height_px, channelsOf(visibility, "V"), metadata};
+    std::ranges::move(channelsOf(truth, "truth"), std::back_inserter(picture.channels));
+    std::ranges::move(channelsOf(error, "error"), std::back_inserter(picture.channels));
+    writeExr(file, picture);
+}
+
+std::string csvField(const std::string& text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return quoted + "\"";
+}
+
 }  // namespace
 
-std::string lightSuffix(const std::string& light, std::size_t lightCount) {
-    std::string suffix = lightCount > 1 ? "." + light : "";
+std::string fileStem(const std::string& technique) {
+    std::string stem = technique;
     std::ranges::replace_if(
-        suffix, [](unsigned char c) { return !std::isalnum(c) && c != '-' && c != '.'; }, '_');
-    return suffix;
+        stem, [](unsigned char c) { return !std::isalnum(c) && c != '-' && c != '.'; }, '_');
+    return stem;
+}
+
+std::string lightSuffix(const std::string& light, std::size_t lightCount) {
+    return lightCount > 1 ? fileStem("." + light) : "";
 }
 
 std::string visibilityFile(const std::string& technique, const std::string& suffix) {
-    return technique + ".visibility" + suffix + ".png";
+    return fileStem(technique) + ".visibility" + suffix + ".png";
 }
 
 std::string differenceFile(const std::string& technique, const std::string& suffix) {
-    return technique + ".difference" + suffix + ".png";
+    return fileStem(technique) + ".difference" + suffix + ".png";
 }
 
 double medianOf(std::vector<double> values) {
@@ -101,6 +126,26 @@ std::string toTable(const Comparison& comparison) {
     return table;
 }
 
+std::string toCsv(std::span<const Comparison> comparisons) {
+    std::string csv =
+        "scene,technique,light,rmse,mae,penumbra_rmse,p99,max,leak,false_shadow,flip,ms_median,flicker,"
+        "popping\n";
+    for (const Comparison& comparison : comparisons) {
+        for (const TechniqueComparison& technique : comparison.techniques) {
+            for (const LightComparison& light : technique.lights) {
+                const VisibilityMetrics& m = light.metrics;
+                csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},", csvField(comparison.scene),
+                                   csvField(technique.technique), csvField(light.light), m.rmse, m.mae,
+                                   m.penumbra_rmse, m.p99, m.max, m.leak, m.false_shadow, technique.flip,
+                                   medianOf(light.milliseconds));
+                csv += light.flicker ? fmt::format("{},{}\n", light.flicker->rms, light.flicker->popping)
+                                     : std::string(",\n");
+            }
+        }
+    }
+    return csv;
+}
+
 void writeComparison(const std::filesystem::path& folder, const Comparison& comparison,
                      const Metadata& metadata) {
     const std::string reference(referenceName);
@@ -114,7 +159,7 @@ void writeComparison(const std::filesystem::path& folder, const Comparison& comp
     sheet.push_back({reference, comparison.reference.display});
     for (const Image& truth : comparison.reference.visibilities) sheet.push_back({"visibility", truth});
     for (const TechniqueComparison& technique : comparison.techniques) {
-        write(technique.technique + ".png", technique.display);
+        write(fileStem(technique.technique) + ".png", technique.display);
         sheet.push_back({technique.technique, technique.display});
         for (std::size_t i = 0; i < technique.lights.size(); ++i) {
             const LightComparison& light = technique.lights[i];
@@ -124,6 +169,8 @@ void writeComparison(const std::filesystem::path& folder, const Comparison& comp
             write(visibilityFile(reference, suffix), truth);
             write(visibilityFile(technique.technique, suffix), light.visibility);
             write(differenceFile(technique.technique, suffix), difference);
+            writeErrors(folder / (fileStem(technique.technique) + ".visibility" + suffix + ".exr"), truth,
+                        light.visibility, metadata);
             sheet.push_back({technique.technique + suffix + " - truth, x5", difference});
         }
     }

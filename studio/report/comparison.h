@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,9 +57,14 @@ nlohmann::ordered_json toJson(const Comparison& comparison);
 /// A table for a terminal: a row for each technique and light.
 std::string toTable(const Comparison& comparison);
 
+/// A row for each scene, technique and light, under a header; names and units as in toJson. Fields that were
+/// not measured are empty.
+std::string toCsv(std::span<const Comparison> comparisons);
+
 /// Writes into `folder`, which must exist: for each technique its picture (TECHNIQUE.png), and for each light
-/// its visibility and the signed difference to the truth x5; the same for the reference; contact-sheet.png;
-/// report.html. Files of a light carry its name where there are several. Throws OutputError.
+/// its visibility, the signed difference to the truth x5, and the numbers of both (TECHNIQUE.visibility.exr,
+/// with channels V, truth and error); the same pictures for the reference; contact-sheet.png; report.html.
+/// Files of a light carry its name where there are several. Throws OutputError.
 void writeComparison(const std::filesystem::path& folder, const Comparison& comparison,
                      const Metadata& metadata);
 

@@ -57,8 +57,8 @@ std::string metricsTable(const Comparison& comparison) {
 std::string choices(const Comparison& comparison, std::string_view chosen) {
     std::string html;
     const auto add = [&](std::string_view name) {
-        html +=
-            fmt::format("<option value=\"{0}.png\"{1}>{0}</option>", name, name == chosen ? " selected" : "");
+        html += fmt::format("<option value=\"{}.png\"{}>{}</option>", fileStem(std::string(name)),
+                            name == chosen ? " selected" : "", escape(std::string(name)));
     };
     add(referenceName);
     for (const TechniqueComparison& technique : comparison.techniques) add(technique.technique);
@@ -83,7 +83,7 @@ std::string toHtml(const Comparison& comparison) {
         "<h2>Wipe</h2>\n<p><select>{}</select> | <select>{}</select></p>\n<input type=\"range\" "
         "value=\"50\">\n"
         "<div class=\"wipe\"><img src=\"{}.png\" alt=\"left\"><img src=\"{}.png\" alt=\"right\"></div>\n",
-        choices(comparison, first), choices(comparison, referenceName), first, referenceName);
+        choices(comparison, first), choices(comparison, referenceName), fileStem(first), referenceName);
     const std::size_t lights = comparison.reference.visibilities.size();
     for (const TechniqueComparison& technique : comparison.techniques) {
         html += fmt::format("<h2>{}</h2>\n", escape(technique.technique));

@@ -7,22 +7,12 @@
 
 #include "studio/errors.h"
 #include "studio/image/image_io.h"
+#include "studio/workbench/shell_word.h"
 
 namespace penumbra::studio::viewer {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A word of a POSIX shell's command line.
-std::string shellWord(const std::string& word) {
-    const bool plain = !word.empty() && word.find_first_not_of(
-                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                            "0123456789-_./=,:+@%") == std::string::npos;
-    if (plain) return word;
-    std::string result = "'";
-    for (const char c : word) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return result + "'";
-}
 
 std::string triple(const glm::vec3& v) {
     return fmt::format("{},{},{}", v.x, v.y, v.z);

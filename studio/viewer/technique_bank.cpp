@@ -1,42 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/viewer/technique_bank.h"
 
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 
 #include "studio/workbench/any_technique.h"
+#include "studio/workbench/parameter_list.h"
 
 namespace penumbra::studio::viewer {
-namespace {
-
-class Reader final : public ParameterVisitor {
-  public:
-    void boolean(const ParameterInfo& info, bool& value) override { add(info, value ? "true" : "false"); }
-    void integer(const ParameterInfo& info, int& value, Range<int>) override {
-        add(info, fmt::format("{}", value));
-    }
-    void real(const ParameterInfo& info, float& value, Range<float>) override {
-        add(info, fmt::format("{}", value));
-    }
-    void choice(const ParameterInfo& info, int& value, std::span<const std::string_view> names) override {
-        add(info, std::string(names[std::size_t(value)]));
-    }
-    ParameterValues values;
-
-  private:
-    void add(const ParameterInfo& info, std::string text) {
-        values.emplace_back(std::string(info.name), std::move(text));
-    }
-};
-
-}  // namespace
 
 ParameterValues parameterValues(Technique& technique) {
-    Reader reader;
-    technique.describe(reader);
-    return std::move(reader.values);
+    ParameterValues values;
+    for (ParameterDescription& parameter : describeParameters(technique)) {
+        values.emplace_back(std::move(parameter.name), std::move(parameter.value));
+    }
+    return values;
 }
 
 TechniqueBank::Entry& TechniqueBank::entry(std::string_view name) {
