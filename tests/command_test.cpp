@@ -500,5 +500,33 @@ TEST_F(CommandTest, InfoPrintsWhatWasLoaded) {
     }
 }
 
+TEST_F(CommandTest, InfoReadsLuminaires) {
+    const std::string isotropic =
+        "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 -0.3 -0.3 0\n1 1 10\n0 180\n0\n100 100\n";
+    write("lamp.ies", isotropic);
+    const Outcome outcome = run("info " + at("lamp.ies") + " --candela 30,60 --candela 120,0 --json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_NEAR(double(json["lumens"]), 1256.64, 0.01);
+    EXPECT_EQ(json["max_candela"], 100);
+    EXPECT_EQ(json["opening"]["shape"], "circle");
+    EXPECT_NEAR(double(json["opening"]["diameter_m"]), 0.3, 1e-12);
+    ASSERT_EQ(json["candela"].size(), 2u);
+    EXPECT_EQ(json["candela"][1]["gamma"], 120);
+    EXPECT_EQ(json["candela"][1]["c"], 0);
+    EXPECT_EQ(json["candela"][1]["cd"], 100);
+    EXPECT_NE(run("info " + at("lamp.ies")).out.find("1256.64"), std::string::npos);
+
+    write("broken.ies", isotropic.substr(0, isotropic.size() - 5) + "-1\n");
+    const Outcome broken = run("info --json " + at("broken.ies"));
+    EXPECT_EQ(broken.exitCode, 3);
+    EXPECT_TRUE(broken.out.empty());
+    EXPECT_NE(broken.err.find("broken.ies:7: candela must not be negative"), std::string::npos) << broken.err;
+    EXPECT_EQ(run("info " + at("missing.ldt")).exitCode, 3);
+    for (const char* direction : {"30", "200,0", "x,0", "1,2,3", "nan,0"})
+        EXPECT_EQ(run("info " + at("lamp.ies") + " --candela " + direction).exitCode, 2) << direction;
+    EXPECT_EQ(run("info primitives --candela 0,0").exitCode, 2);
+}
+
 }  // namespace
 }  // namespace penumbra::studio

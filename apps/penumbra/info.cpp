@@ -3,6 +3,9 @@
 
 #include "apps/penumbra/arguments.h"
 #include "apps/penumbra/commands.h"
+#include "apps/penumbra/info_profile.h"
+#include "studio/errors.h"
+#include "studio/scene/profiles/profile_file.h"
 #include "studio/scene/topology.h"
 
 namespace penumbra::studio {
@@ -97,12 +100,37 @@ void printInfo(const SceneArguments& arguments) {
 
 }  // namespace
 
+namespace {
+
+struct InfoArguments {
+    SceneArguments scene;
+    std::vector<std::string> candela;
+    bool json = false;
+};
+
+void info(const InfoArguments& arguments) {
+    if (isProfileName(arguments.scene.scene))
+        return printProfile(arguments.scene.scene, arguments.candela, arguments.json);
+    if (arguments.json || !arguments.candela.empty())
+        throw UsageError(fmt::format("--json and --candela are for luminaires, .ies and .ldt, not for '{}'",
+                                     arguments.scene.scene));
+    printInfo(arguments.scene);
+}
+
+}  // namespace
+
 void addInfo(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("info", "what a scene holds: triangles, bounds, lights, animations, warnings");
-    auto arguments = std::make_shared<SceneArguments>();
-    arguments->addSceneTo(*command);
-    command->callback([arguments] { printInfo(*arguments); });
+    CLI::App* command = app.add_subcommand(
+        "info",
+        "what a scene holds (triangles, bounds, lights, animations, warnings), or a luminaire's file");
+    auto arguments = std::make_shared<InfoArguments>();
+    arguments->scene.addSceneTo(*command);
+    command
+        ->add_option("--candela", arguments->candela,
+                     "GAMMA,C in degrees: what a luminaire (.ies, .ldt) sends there; may be repeated")
+        ->take_all();
+    command->add_flag("--json", arguments->json, "of a luminaire, as JSON");
+    command->callback([arguments] { info(*arguments); });
 }
 
 }  // namespace penumbra::studio

@@ -3,15 +3,14 @@
 
 #include <bit>
 #include <cstddef>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <span>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "studio/errors.h"
+#include "studio/scene/file_beside.h"
 #include "studio/scene/gltf/lights.h"
 #include "studio/scene/gltf/picture_decode.h"
 #include "studio/scene/lights/nearest_name.h"
@@ -25,40 +24,6 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t maxSidecar_bytes = 4u << 20, maxPicture_bytes = 256u << 20;
 constexpr std::uint64_t maxPixels = 1ull << 27;  // of all pictures of a sidecar together
 
-std::vector<std::byte> readBytes(const fs::path& file, std::uintmax_t limit_bytes, const std::string& where) {
-    std::error_code error;
-    if (!fs::is_regular_file(file, error))
-        throw InputError(fmt::format("{}: '{}' {}", where, file.string(),
-                                     fs::exists(file, error) ? "is not a file" : "does not exist"));
-    const std::uintmax_t size = fs::file_size(file, error);
-    if (error || size > limit_bytes)
-        throw InputError(
-            fmt::format("{}: '{}' is larger than {} MiB", where, file.string(), limit_bytes >> 20));
-    std::vector<std::byte> bytes(size);
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(size)))
-        throw InputError(fmt::format("{}: '{}' cannot be read", where, file.string()));
-    return bytes;
-}
-
-/// A file beneath `folder`, whatever the text tries: no absolute path, no "..", no link that leads out.
-fs::path confined(const std::string& text, const fs::path& folder, const std::string& where) {
-    const fs::path relative(text);
-    bool inside = relative.is_relative() && text.find('\\') == text.npos && text.find(':') == text.npos;
-    for (const fs::path& part : relative) inside = inside && part != "..";
-    const fs::path file = folder / relative;
-    std::error_code error;
-    if (inside && fs::exists(file, error)) {
-        const fs::path target = fs::canonical(file, error)
-                                    .lexically_relative(fs::canonical(folder.empty() ? "." : folder, error));
-        inside = !error && !target.empty() && *target.begin() != "..";
-    }
-    if (!inside)
-        throw InputError(fmt::format(
-            "{}: 'texture:file' must be a path beneath the file's own folder, not '{}'", where, text));
-    return file;
-}
-
 /// Adds the pictures of a sidecar's lights to a scene, each once.
 class TextureLoader {
   public:
@@ -67,8 +32,8 @@ class TextureLoader {
     int load(const std::string& text, const std::string& where) {
         const auto [found, isNew] = textures_.try_emplace(text, int(scene_.textures.size()));
         if (!isNew) return found->second;
-        const std::vector<std::byte> bytes =
-            readBytes(confined(text, folder_, where), maxPicture_bytes, where);
+        const std::vector<std::byte> bytes = readWholeFile(
+            fileBeneath(folder_, text, fmt::format("{}: 'texture:file'", where)), maxPicture_bytes, where);
         constexpr int clampToEdge = 33071;
         Texture texture;
         texture.picture = int(scene_.pictures.size());
@@ -174,7 +139,7 @@ class SidecarMotion : public Scene::Motion {
 }  // namespace
 
 Sidecar readSidecar(const fs::path& file) {
-    const std::vector<std::byte> bytes = readBytes(file, maxSidecar_bytes, "lights");
+    const std::vector<std::byte> bytes = readWholeFile(file, maxSidecar_bytes, "lights");
     return parseSidecar({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 
