@@ -337,17 +337,50 @@ TEST_F(CommandTest, RendersPictureAndVisibility) {
     EXPECT_EQ(json.at("lights").size(), 5u);
 }
 
-TEST_F(CommandTest, WithoutATechniqueExactIsTaken) {
+TEST_F(CommandTest, WithoutATechniqueAutoIsTaken) {
     const auto visibility = [&](const std::string& file, const std::string& flags) {
         const Outcome outcome =
             run("render two-boxes --size 32x24 -o " + at("a.png") + " --visibility " + at(file) + flags);
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
         return readExr(at(file)).channels.at(0).values;
     };
-    const std::vector<float> exact = visibility("exact.exr", " -t exact");
-    EXPECT_EQ(visibility("default.exr", ""), exact);
-    EXPECT_NE(visibility("hard.exr", " -t hard"), exact) << "this scene does not tell techniques apart";
-    EXPECT_NE(run("render --help").out.find("exact"), std::string::npos);
+    const std::vector<float> automatic = visibility("auto.exr", " -t auto");
+    EXPECT_EQ(visibility("default.exr", ""), automatic);
+    EXPECT_EQ(visibility("asked.exr", " --error 0.02"), automatic);
+    EXPECT_NE(visibility("hard.exr", " -t hard"), automatic) << "this scene does not tell techniques apart";
+    EXPECT_NE(run("render --help").out.find("auto"), std::string::npos);
+}
+
+TEST_F(CommandTest, AnErrorOrATimeThatCannotBeKeptIsRefused) {
+    const auto refusal = [&](const std::string& flags) {
+        const Outcome outcome = run("render two-boxes --size 32x24 -o " + at("a.png") + " " + flags);
+        EXPECT_NE(outcome.exitCode, 0) << flags;
+        EXPECT_FALSE(std::filesystem::exists(at("a.png"))) << flags;
+        return outcome.err;
+    };
+    for (const char* error : {"0", "-1", "nan", "1.5"}) {
+        EXPECT_NE(refusal(std::string("--error=") + error).find("--error"), std::string::npos) << error;
+    }
+    for (const char* budget : {"0", "-1", "nan"}) {
+        EXPECT_NE(refusal(std::string("--budget-ms=") + budget).find("--budget-ms"), std::string::npos)
+            << budget;
+    }
+    EXPECT_NE(refusal("--error 0.00001").find("no technique promises less than 0.0"), std::string::npos);
+    EXPECT_NE(refusal("-t pcss --error 0.01").find("the smallest that 'pcss' can promise is 0."),
+              std::string::npos);
+    EXPECT_NE(refusal("-t smoothies --error 0.01").find("'smoothies' promises no error"), std::string::npos);
+    EXPECT_NE(refusal("-t exact --budget-ms 5").find("'-t auto' keeps to a time"), std::string::npos);
+}
+
+TEST_F(CommandTest, WhatWasChosenIsTold) {
+    const Outcome outcome = run("render two-boxes --size 32x24 --error 0.03 --json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto statistics = nlohmann::json::parse(outcome.out).at("lights").at(0).at("statistics");
+    EXPECT_TRUE(statistics.at("chosen").contains("technique"));
+    EXPECT_LE(statistics.at("counts").at("error promised").get<double>(), 0.03);
+    const Outcome named = run("render two-boxes --size 32x24 -t exact --error 0.03 --json");
+    EXPECT_EQ(named.exitCode, 0) << named.err;
+    EXPECT_FALSE(nlohmann::json::parse(named.out).at("lights").at(0).at("statistics").contains("chosen"));
 }
 
 TEST_F(CommandTest, OneLightsVisibilityIsChannelV) {

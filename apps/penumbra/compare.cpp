@@ -13,6 +13,7 @@
 #include <set>
 
 #include "apps/penumbra/arguments.h"
+#include "apps/penumbra/asked_for.h"
 #include "apps/penumbra/commands.h"
 #include "studio/bench/bench_report.h"
 #include "studio/bench/judge.h"
@@ -32,6 +33,7 @@ struct CompareArguments {
     std::string techniques = "all";
     std::string output;
     std::vector<std::string> settings;
+    AskedFor askedFor;
     std::vector<std::string> thresholds;
     int samples = 256;
     std::string flicker;
@@ -166,7 +168,11 @@ void compare(const CompareArguments& arguments, const std::string& commandLine) 
     if (!flicker && std::ranges::find(thresholds, "flicker", &Threshold::metric) != thresholds.end()) {
         throw UsageError("--fail-above flicker needs --flicker, which says what moves");
     }
-    const std::vector<Contender> contenders = parseContenders(arguments.techniques, arguments.settings);
+    std::vector<Contender> contenders = parseContenders(arguments.techniques, arguments.settings);
+    for (Contender& contender : contenders) {
+        const auto settings = arguments.askedFor.settingsOf(contender.technique);
+        contender.settings.insert(contender.settings.begin(), settings.begin(), settings.end());
+    }
     const bool alone = scenes.size() == 1;
     if (!alone) requireScenes(scenes, arguments.view);
     if (!arguments.output.empty()) {
@@ -242,6 +248,7 @@ void addCompare(CLI::App& app, const std::string& commandLine) {
         ->add_option("--set", arguments->settings,
                      "KEY=VALUE: a parameter of the techniques, NAME.KEY=VALUE of one; may be repeated")
         ->take_all();
+    arguments->askedFor.addTo(*command);
     command->add_option(
         "--flicker", arguments->flicker,
         "also measure flicker, over 8 frames in which this moves: animation, camera or light");

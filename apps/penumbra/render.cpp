@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/penumbra/arguments.h"
+#include "apps/penumbra/asked_for.h"
 #include "apps/penumbra/commands.h"
 #include "studio/errors.h"
 #include "studio/image/image_io.h"
@@ -68,6 +69,7 @@ struct RenderArguments {
     std::string output;
     std::string visibility;
     std::vector<std::string> techniqueOfLight;
+    AskedFor askedFor;
     std::vector<std::string> settings;
     std::string frames;
     double framesPerSecond = 24;
@@ -113,6 +115,10 @@ nlohmann::ordered_json statisticsJson(const Statistics& statistics) {
     for (const Statistic& count : statistics.counts) json["counts"][std::string(count.name)] = count.value;
     for (const PassTime& pass : statistics.passes)
         json["passes_ms"][std::string(pass.name)] = pass.milliseconds;
+    if (const auto& [technique, parameter, value] = statistics.chosen; !technique.empty()) {
+        json["chosen"] = {{"technique", technique}};
+        if (!parameter.empty()) json["chosen"][std::string(parameter)] = value;
+    }
     return json;
 }
 
@@ -138,6 +144,10 @@ class RenderTechniques {
             const Contender wanted = parseTechnique(text.substr(light->name.size() + 1));
             nameOfLight_[light->name] = wanted.technique;
             make(workbench, wanted);
+        }
+        for (const auto& [name, technique] : techniques_) {
+            for (const auto& [parameter, value] : arguments.askedFor.settingsOf(name))
+                setParameter(*technique, parameter, value);
         }
         for (const std::string& setting : arguments.settings) set(setting);
     }
@@ -296,6 +306,7 @@ void addRender(CLI::App& app, const std::string& commandLine) {
                      "KEY=VALUE: a parameter of the technique, NAME.KEY=VALUE of one of --technique-of; may "
                      "be repeated")
         ->take_all();
+    arguments->askedFor.addTo(*command);
     command->add_option("--frames", arguments->frames,
                         "A-B or A-BxSTEP: an animation, into numbered files (#### in -o)");
     command->add_option("--fps", arguments->framesPerSecond, "frames for each second of the animation")

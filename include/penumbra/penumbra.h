@@ -7,5 +7,6 @@
 #include "penumbra/light.h"
 #include "penumbra/math.h"
 #include "penumbra/parameters.h"
+#include "penumbra/promise.h"
 #include "penumbra/technique.h"
 #include "penumbra/view.h"

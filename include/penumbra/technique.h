@@ -80,6 +80,12 @@ struct PassTime {
 
 struct Statistics {
     std::vector<Statistic> counts;
+
+    /// Which technique has answered, with which setting, where one (`auto`) takes another. Empty: itself.
+    struct Chosen {
+        std::string_view technique, parameter, value;
+    };
+    Chosen chosen = {};
     std::vector<PassTime> passes;
 };
 
@@ -134,8 +140,8 @@ struct TechniqueInfo {
 PENUMBRA_API std::span<const TechniqueInfo> techniqueCatalog();
 
 /// Makes a technique on `device`, which must outlive it. Throws Error::Kind::unknownName, listing the names
-/// there are.
-PENUMBRA_API std::unique_ptr<Technique> makeTechnique(Device& device, std::string_view name);
+/// there are. Without a name it takes whichever keeps `max_error` at the least cost: docs/manual/choosing.md.
+PENUMBRA_API std::unique_ptr<Technique> makeTechnique(Device& device, std::string_view name = "auto");
 
 /// Renders into the void and waits, so that drivers compile and everything is allocated before the first
 /// frame and not in it.

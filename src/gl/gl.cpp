@@ -40,6 +40,10 @@ void forgetErrors() {
     }
 }
 
+void finish() {
+    glFinish();
+}
+
 void checkAllocated(std::string_view what) {
     if (glGetError() == GL_OUT_OF_MEMORY) {
         throw Error(Error::Kind::outOfMemory,

@@ -82,6 +82,9 @@ void label(GLenum kind, GLuint name, std::string_view text);
 /// Takes errors that somebody else has left behind, so that `checkAllocated` sees what follows alone.
 void forgetErrors();
 
+/// Waits until everything is done. Not for use in a frame, unless the CPU does the drawing.
+void finish();
+
 /// Throws Error::Kind::outOfMemory, naming `what`, if the allocation just made failed.
 void checkAllocated(std::string_view what);
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <string>
 
+#include "penumbra/promise.h"
 #include "penumbra/technique.h"
+#include "src/automatic/automatic.h"
 #include "src/hosting/hosted_technique.h"
 #include "src/techniques/exact_visibility/exact.h"
 #include "src/techniques/light_sampling/adaptive.h"
@@ -23,6 +25,7 @@ namespace {
 struct Entry {
     TechniqueInfo info;
     std::unique_ptr<Technique> (*make)(Device&);
+    std::span<const Promise> promises = {};
 };
 
 template <typename T>
@@ -32,10 +35,12 @@ std::unique_ptr<Technique> make(Device& device) {
 
 constexpr std::array entries = {
     Entry{{"hard", "one shadow map from the light's centre: no penumbra (Williams 1978)", 0.30f},
-          make<HardShadowMap>},
+          make<HardShadowMap>,
+          HardShadowMap::promises},
     Entry{{"pcf", "a shadow map filtered over a fixed kernel (Reeves et al. 1987)", 0.30f}, make<Pcf>},
     Entry{{"pcss", "blocker search, then a filter as wide as the penumbra (Fernando 2005)", 0.02f},
-          make<Pcss>},
+          make<Pcss>,
+          Pcss::promises},
     Entry{{"shadow-width", "distances to the shadow's border beside one shadow map (Kirsch and Döllner 2003)",
            0.03f},
           make<ShadowWidthMap>},
@@ -54,12 +59,27 @@ constexpr std::array entries = {
            0.01f},
           make<SoftVolumes>},
     Entry{{"exact", "samples of the light, each decided exactly, from triangles without maps", 0.02f},
-          make<ExactVisibility>},
+          make<ExactVisibility>,
+          ExactVisibility::promises},
 };
 
+std::unique_ptr<Technique> makeAutomatic(Device& device) {
+    std::vector<Automatic::Candidate> candidates;
+    for (const Entry& entry : entries) {
+        for (const Promise& promise : entry.promises)
+            candidates.push_back({entry.info.name, entry.make, promise});
+    }
+    return std::make_unique<Automatic>(device, std::move(candidates));
+}
+
+constexpr TechniqueInfo automatic = {
+    "auto", "whatever keeps an error, or a time, at the least cost; the settings of the others follow",
+    0.02f};
+
 constexpr auto infos = [] {
-    std::array<TechniqueInfo, entries.size()> result;
+    std::array<TechniqueInfo, entries.size() + 1> result;
     std::ranges::transform(entries, result.begin(), &Entry::info);
+    result.back() = automatic;
     return result;
 }();
 
@@ -69,14 +89,21 @@ std::span<const TechniqueInfo> techniqueCatalog() {
     return infos;
 }
 
+std::span<const Promise> promisesOf(std::string_view technique) {
+    const auto found =
+        std::ranges::find(entries, technique, [](const Entry& entry) { return entry.info.name; });
+    return found == entries.end() ? std::span<const Promise>() : found->promises;
+}
+
 std::unique_ptr<Technique> makeTechnique(Device& device, std::string_view name) {
+    if (name == automatic.name) return std::make_unique<HostedTechnique>(device, makeAutomatic);
     std::string names;
     for (const Entry& entry : entries) {
         if (entry.info.name == name) return std::make_unique<HostedTechnique>(device, entry.make);
         names += (names.empty() ? "" : ", ") + std::string(entry.info.name);
     }
-    throw Error(Error::Kind::unknownName,
-                "there is no technique '" + std::string(name) + "'; there are: " + names);
+    throw Error(Error::Kind::unknownName, "there is no technique '" + std::string(name) +
+                                              "'; there are: " + names + ", " + std::string(automatic.name));
 }
 
 }  // namespace penumbra

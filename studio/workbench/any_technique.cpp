@@ -19,9 +19,7 @@ std::vector<TechniqueInfo> allTechniques() {
 }
 
 std::string_view defaultTechnique() {
-    const bool hasExact =
-        std::ranges::find(techniqueCatalog(), "exact", &TechniqueInfo::name) != techniqueCatalog().end();
-    return hasExact ? "exact" : "hard";
+    return "auto";
 }
 
 std::unique_ptr<Technique> makeAnyTechnique(Device& device, std::string_view name) {

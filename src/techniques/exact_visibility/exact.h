@@ -4,11 +4,13 @@
 // samples. See README.md.
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "penumbra/promise.h"
 #include "penumbra/technique.h"
 #include "src/device_internals.h"
 #include "src/gl/pass_timers.h"
@@ -23,6 +25,14 @@ namespace penumbra {
 
 class ExactVisibility final : public Technique {
   public:
+    /// Calibrated against up to 32,768 rays a pixel: docs/manual/choosing.md.
+    static constexpr std::array promises = {
+        Promise{"samples", "16", 0.075f, 2.2f},    Promise{"samples", "32", 0.048f, 2.6f},
+        Promise{"samples", "64", 0.028f, 3.6f},    Promise{"samples", "144", 0.0175f, 4.5f},
+        Promise{"samples", "256", 0.01f, 6.0f},    Promise{"samples", "512", 0.0066f, 9.0f},
+        Promise{"samples", "1024", 0.005f, 14.0f},
+    };
+
     explicit ExactVisibility(Device& device);
 
     void describe(ParameterVisitor& visitor) override;

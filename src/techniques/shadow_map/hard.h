@@ -3,6 +3,9 @@
 // one that the light's centre sees. No penumbra; the yardstick of cost for everything else.
 #pragma once
 
+#include <array>
+
+#include "penumbra/promise.h"
 #include "penumbra/technique.h"
 #include "src/gl/pass_timers.h"
 #include "src/gl/program.h"
@@ -13,6 +16,8 @@ namespace penumbra {
 
 class HardShadowMap final : public Technique {
   public:
+    static constexpr std::array promises = {Promise{{}, {}, 0.5f, 1.0f}};
+
     explicit HardShadowMap(Device& device);
 
     void describe(ParameterVisitor& visitor) override;

@@ -4,6 +4,9 @@
 // width.
 #pragma once
 
+#include <array>
+
+#include "penumbra/promise.h"
 #include "penumbra/technique.h"
 #include "src/gl/buffer.h"
 #include "src/gl/pass_timers.h"
@@ -17,6 +20,8 @@ namespace penumbra {
 
 class Pcss final : public Technique {
   public:
+    static constexpr std::array promises = {Promise{{}, {}, 0.4f, 1.8f}};
+
     explicit Pcss(Device& device);
 
     void describe(ParameterVisitor& visitor) override;

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/automatic/automatic.h"
+
+#include <algorithm>
+#include <ctime>
+#include <limits>
+#include <string>
+
+namespace penumbra {
+namespace {
+
+constexpr std::string_view passName = "auto/light";
+
+/// By error, without those that another one beats in both.
+std::vector<Automatic::Candidate> worthwhile(std::vector<Automatic::Candidate> all) {
+    std::ranges::stable_sort(all, {}, [](const auto& candidate) {
+        return std::pair(candidate.promise.penumbraRmse, candidate.promise.cost);
+    });
+    std::vector<Automatic::Candidate> result;
+    for (const Automatic::Candidate& candidate : all) {
+        if (result.empty() || candidate.promise.cost < result.back().promise.cost)
+            result.push_back(candidate);
+    }
+    return result;
+}
+
+std::vector<BudgetKeeper::Step> stepsOf(std::span<const Automatic::Candidate> candidates) {
+    std::vector<BudgetKeeper::Step> steps;
+    for (const auto& [technique, make, promise] : candidates)
+        steps.push_back({.error = promise.penumbraRmse, .cost = promise.cost});
+    return steps;
+}
+
+double processTime_ms() {
+    return 1e3 * double(std::clock()) / CLOCKS_PER_SEC;
+}
+
+std::string shortest(double value) {
+    std::string text = std::to_string(value);
+    return text.substr(0, text.find_last_not_of('0') + 1);
+}
+
+}  // namespace
+
+Automatic::Automatic(Device& device, std::vector<Candidate> candidates)
+    : budget_ms_(std::numeric_limits<float>::infinity()),
+      device_(device),
+      candidates_(worthwhile(std::move(candidates))),
+      keeper_(stepsOf(candidates_)) {}
+
+void Automatic::describe(ParameterVisitor& visitor) {
+    constexpr float leastError = 1e-6f, leastBudget_ms = 1e-3f;
+    visitor.real(
+        {.name = "max_error",
+         .help = "root mean square error of visibility in the penumbra that is kept; what takes the least "
+                 "time for it is taken"},
+        maxError_, {leastError, 1});
+    visitor.real(
+        {.name = "budget_ms",
+         .unit = "ms",
+         .help = "device time that a light may take in a steady state (process time where the driver "
+                 "renders in software); where it does not suffice, the error gives way"},
+        budget_ms_, {leastBudget_ms, std::numeric_limits<float>::infinity()});
+}
+
+Technique& Automatic::technique(std::string_view name) const {
+    return *std::ranges::find(made_, name, [](const auto& entry) { return entry.first; })->second;
+}
+
+Technique& Automatic::take(std::size_t step) {
+    const auto& [name, make, promise] = candidates_[step];
+    if (std::ranges::find(made_, name, [](const auto& entry) { return entry.first; }) == made_.end())
+        made_.emplace_back(name, make(device_));
+    Technique& taken = technique(name);
+    if (taken_ != step && !promise.parameter.empty()) setParameter(taken, promise.parameter, promise.value);
+    taken_ = step;
+    return taken;
+}
+
+void Automatic::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
+    if (candidates_.front().promise.penumbraRmse > maxError_) {
+        throw Error(Error::Kind::badArgument, "max_error: no technique promises less than " +
+                                                  shortest(candidates_.front().promise.penumbraRmse) +
+                                                  ", not " + shortest(maxError_));
+    }
+    keeper_.want(maxError_, budget_ms_);
+    Technique& technique = take(keeper_.current());
+    if (budget_ms_ == std::numeric_limits<float>::infinity()) {
+        technique.render(inputs, out);
+    } else {
+        measure(inputs, out, technique);
+    }
+}
+
+void Automatic::measure(const ShadowInputs& inputs, VisibilityBuffer& out, Technique& technique) {
+    if (device_.isSoftware()) {
+        // The processor draws: to wait for it costs nothing, and its time is what has been spent.
+        gl::finish();
+        const double start_ms = processTime_ms();
+        technique.render(inputs, out);
+        gl::finish();
+        keeper_.spent(processTime_ms() - start_ms);
+        return;
+    }
+    {
+        const auto pass = timers_.pass(passName);
+        technique.render(inputs, out);
+    }
+    keeper_.spent(passTime_ms());
+}
+
+double Automatic::passTime_ms() const {
+    for (const auto& [name, milliseconds] : timers_.latest()) {
+        if (name == passName) return milliseconds;
+    }
+    return 0;
+}
+
+void Automatic::inspect(InspectionVisitor& visitor) const {
+    if (taken_) technique(candidates_[*taken_].technique).inspect(visitor);
+}
+
+Statistics Automatic::statistics() const {
+    if (!taken_) return {};
+    const Candidate& candidate = candidates_[*taken_];
+    Statistics statistics = technique(candidate.technique).statistics();
+    std::vector<Statistic> own = {
+        {.name = "error asked for", .value = maxError_},
+        {.name = "error promised", .value = candidate.promise.penumbraRmse},
+    };
+    if (budget_ms_ < std::numeric_limits<float>::infinity()) {
+        own.push_back({.name = "budget", .value = budget_ms_, .unit = "ms"});
+        own.push_back({.name = "spent", .value = keeper_.measured_ms(), .unit = "ms"});
+        own.push_back({.name = "error gave way to the budget", .value = double(*taken_ > keeper_.wanted())});
+    }
+    statistics.counts.insert(statistics.counts.begin(), own.begin(), own.end());
+    statistics.chosen = {.technique = candidate.technique,
+                         .parameter = candidate.promise.parameter,
+                         .value = candidate.promise.value};
+    return statistics;
+}
+
+}  // namespace penumbra

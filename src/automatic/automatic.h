@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// `auto`: for a light and a frame the cheapest technique, and its settings, that keep a promise; the
+// techniques state what they promise (penumbra/promise.h), and nothing here knows any of them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "penumbra/promise.h"
+#include "penumbra/technique.h"
+#include "src/automatic/budget_keeper.h"
+#include "src/device_internals.h"
+#include "src/gl/pass_timers.h"
+
+namespace penumbra {
+
+class Automatic final : public Technique {
+  public:
+    /// Another technique as it can be taken.
+    struct Candidate {
+        std::string_view technique;
+        std::unique_ptr<Technique> (*make)(Device&);
+        Promise promise;
+    };
+
+    Automatic(Device& device, std::vector<Candidate> candidates);
+
+    void describe(ParameterVisitor& visitor) override;
+    /// Throws Error::Kind::badArgument where the error asked for is less than anybody promises.
+    void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
+    void inspect(InspectionVisitor& visitor) const override;
+    Statistics statistics() const override;
+
+  private:
+    Technique& take(std::size_t step);
+    Technique& technique(std::string_view name) const;  ///< one that was made
+    void measure(const ShadowInputs& inputs, VisibilityBuffer& out, Technique& technique);
+    double passTime_ms() const;
+
+    float maxError_ = 0.02f;
+    float budget_ms_;
+
+    Device& device_;
+    std::vector<Candidate> candidates_;  ///< none is both dearer and less right than another one
+    BudgetKeeper keeper_;
+    std::vector<std::pair<std::string_view, std::unique_ptr<Technique>>> made_;
+    std::optional<std::size_t> taken_;  ///< of the last render
+    gl::PassTimers timers_;
+};
+
+}  // namespace penumbra
