@@ -6,13 +6,12 @@
 
 #include "src/gl/buffer.h"
 #include "src/gl/program.h"
-#include "studio/viewer/compose_io.h"
 #include "studio/viewer/false_color.h"
 #include "studio/viewer/sides.h"
 
 namespace penumbra::studio::viewer {
 
-/// As in compose.comp.glsl.
+/// Numbered as in canvas_io.h.
 enum class Shown {
     picture,
     difference,   ///< of one light's visibility, A - B: red where A is lighter
@@ -47,8 +46,8 @@ class Canvas {
   private:
     void resize(int width_px, int height_px);
 
+    std::shared_ptr<gl::WriteOrder> order_;
     gl::Program compose_, inspect_, inspectLayer_, inspectRange_, inspectLayerRange_, lightView_;
-    gl::ConstantBuffer<ComposeConstants> constants_;
     gl::Buffer inspectedRange_;
     gl::Texture orderedMap_, divergingMap_, nothing_;
     gl::Texture texture_;

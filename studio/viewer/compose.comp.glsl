@@ -3,27 +3,20 @@
 // The canvas: pictures side by side, or a number of each pixel as a colour.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#include "studio/viewer/compose_io.h"
+#include "studio/viewer/canvas_io.h"
 
-// As Shown in canvas.h.
-const int shownPicture = 0;
-const int shownDifference = 1;
-const int shownError = 2;
-const int shownVisibility = 3;
-const int shownIlluminance = 4;
-
-layout(std140, binding = 0) uniform ComposeBlock { ComposeConstants constants; };
-layout(binding = 0) uniform sampler2D displayA;
-layout(binding = 1) uniform sampler2D displayB;
-layout(binding = 2) uniform sampler2D visibilityA;
-layout(binding = 3) uniform sampler2D visibilityB;
-layout(binding = 4) uniform sampler2D illuminanceA;
-layout(binding = 5) uniform sampler2D illuminanceB;
-layout(binding = 6) uniform sampler2D depthTexture;
-layout(binding = 7) uniform sampler2D reachTexture;
-layout(binding = 8) uniform sampler2D orderedMap;
-layout(binding = 9) uniform sampler2D divergingMap;
-layout(binding = 0, rgba8) uniform writeonly image2D canvasImage;
+layout(std140) uniform Constants { ComposeConstants constants; };
+uniform sampler2D displayA;
+uniform sampler2D displayB;
+uniform sampler2D visibilityA;
+uniform sampler2D visibilityB;
+uniform sampler2D illuminanceA;
+uniform sampler2D illuminanceB;
+uniform sampler2D depthTexture;
+uniform sampler2D reachTexture;
+uniform sampler2D orderedMap;
+uniform sampler2D divergingMap;
+layout(rgba8) uniform writeonly image2D canvasImage;
 
 // Coloured visibility counts by the mean of its channels; others repeat their one (their textures are swizzled so).
 float visibility(sampler2D visibilityTexture, ivec2 pixel) {
@@ -31,15 +24,15 @@ float visibility(sampler2D visibilityTexture, ivec2 pixel) {
 }
 
 float illuminance(ivec2 pixel) {
-    pixel = clamp(pixel, ivec2(0), constants.size.xy - 1);
-    return pixel.x < int(constants.range.w) ? texelFetch(illuminanceA, pixel, 0).r
+    pixel = clamp(pixel, ivec2(0), constants.size_px - 1);
+    return pixel.x < constants.firstColumnOfB ? texelFetch(illuminanceA, pixel, 0).r
                                             : texelFetch(illuminanceB, pixel, 0).r;
 }
 
 // Place of a value in the map's range, in [0, 1].
 float placeOf(float value) {
-    vec2 range = constants.range.xy;
-    if (constants.range.z > 0.5) {
+    vec2 range = vec2(constants.rangeMin, constants.rangeMax);
+    if (constants.isLogarithmic) {
         value = log(max(value, 1e-20));
         range = log(max(range, 1e-20));
     }
@@ -66,10 +59,10 @@ bool isOnIsoline(ivec2 pixel) {
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, constants.size.xy))) return;
-    bool isB = pixel.x >= int(constants.range.w);
+    if (any(greaterThanEqual(pixel, constants.size_px))) return;
+    bool isB = pixel.x >= constants.firstColumnOfB;
     vec3 shown = isB ? texelFetch(displayB, pixel, 0).rgb : texelFetch(displayA, pixel, 0).rgb;
-    int kind = constants.size.z;
+    int kind = constants.shown;
     bool hasSurface = texelFetch(depthTexture, pixel, 0).r > 0.0;
     // Errors count where the unshadowed light arrives and nowhere else.
     bool isJudged = hasSurface && texelFetch(reachTexture, pixel, 0).r > 0.0;
@@ -77,7 +70,7 @@ void main() {
 
     if (kind == shownDifference) {
         float difference = visibility(visibilityA, pixel) - visibility(visibilityB, pixel);
-        shown = isJudged ? colorOf(divergingMap, 0.5 + 0.5 * difference / constants.range.y) : faded;
+        shown = isJudged ? colorOf(divergingMap, 0.5 + 0.5 * difference / constants.rangeMax) : faded;
     } else if (kind == shownError) {
         float difference = visibility(visibilityA, pixel) - visibility(visibilityB, pixel);
         shown = isJudged ? colorOf(orderedMap, placeOf(abs(difference))) : faded;
@@ -87,7 +80,7 @@ void main() {
     } else if (kind == shownIlluminance) {
         float value = illuminance(pixel);
         shown = hasSurface ? colorOf(orderedMap, placeOf(value)) : vec3(0.1);
-        if (hasSurface && constants.size.w == 1 && isOnIsoline(pixel)) {
+        if (hasSurface && constants.hasIsolines && isOnIsoline(pixel)) {
             // Dark on light colours, light on dark ones.
             shown = placeOf(value) > 0.45 ? vec3(0.0) : vec3(1.0);
         }

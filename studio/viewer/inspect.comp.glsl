@@ -5,14 +5,12 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "studio/viewer/inspected.glsl"
 
-layout(location = 1) uniform vec2 range;  // black, white
-layout(location = 4) uniform bool stretched;
 // From inspect_range.comp.glsl.
-layout(std430, binding = 0) readonly buffer Range {
+layout(std430) readonly buffer Range {
     uint least;
     uint largest;
 };
-layout(binding = 0, rgba8) uniform writeonly image2D picture;
+layout(rgba8) uniform writeonly image2D picture;
 
 float unordered(uint bits) {
     return uintBitsToFloat((bits & 0x80000000u) != 0u ? bits & 0x7fffffffu : ~bits);
@@ -20,11 +18,12 @@ float unordered(uint bits) {
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, size))) return;
+    if (any(greaterThanEqual(pixel, inspect.size_px))) return;
     vec4 value = inspectedAt(pixel);
-    vec2 ends = stretched && least < largest ? vec2(unordered(least), unordered(largest)) : range;
+    vec2 ends = inspect.isStretched && least < largest ? vec2(unordered(least), unordered(largest))
+                                                         : vec2(inspect.black, inspect.white);
     vec3 shown = (value.rgb - ends.x) / (ends.y - ends.x);
-    if (grey) shown = shown.rrr;
+    if (inspect.isGrey) shown = shown.rrr;
     // What is not a number shall catch the eye, not vanish.
     if (any(isnan(shown))) shown = vec3(1.0, 0.0, 1.0);
     imageStore(picture, pixel, vec4(clamp(shown, 0.0, 1.0), 1.0));

@@ -6,7 +6,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "studio/viewer/inspected.glsl"
 
-layout(std430, binding = 0) buffer Range {
+layout(std430) buffer Range {
     uint least;
     uint largest;
 };
@@ -18,9 +18,9 @@ uint ordered(float value) {
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, size))) return;
+    if (any(greaterThanEqual(pixel, inspect.size_px))) return;
     vec4 value = inspectedAt(pixel);
-    for (int channel = 0; channel < (grey ? 1 : 3); ++channel) {
+    for (int channel = 0; channel < (inspect.isGrey ? 1 : 3); ++channel) {
         if (isnan(value[channel]) || isinf(value[channel])) continue;
         atomicMin(least, ordered(value[channel]));
         atomicMax(largest, ordered(value[channel]));
