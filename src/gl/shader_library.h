@@ -24,7 +24,7 @@ struct EmbeddedShader {
 class ShaderLibrary {
   public:
     /// `sourceRoot` empty: the embedded texts; else files beneath it.
-    explicit ShaderLibrary(std::filesystem::path sourceRoot) : sourceRoot_(std::move(sourceRoot)) {}
+    explicit ShaderLibrary(std::filesystem::path sourceRoot);
 
     /// Of all that is done with its programs.
     const std::shared_ptr<WriteOrder>& order() const { return order_; }

@@ -10,6 +10,9 @@
 namespace penumbra::studio::viewer {
 namespace {
 
+static_assert(int(LightShape::rect) == shapeRect && int(LightShape::sphere) == shapeSphere &&
+              int(LightShape::distant) == shapeDistant);
+
 gl::Texture mapTexture(const ColorTable& table, std::string_view label) {
     gl::Texture texture({.width_px = 256, .format = gl::Format::rgba8, .label = label});
     texture.write(std::as_bytes(std::span(table)));

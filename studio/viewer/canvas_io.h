@@ -3,7 +3,7 @@
 #ifndef PENUMBRA_CANVAS_IO_H
 #define PENUMBRA_CANVAS_IO_H
 
-#include "src/techniques/common/light_io.h"
+#include "src/gl/shared_types.h"
 
 #ifdef __cplusplus
 namespace penumbra::studio::viewer {
@@ -15,6 +15,11 @@ const int shownDifference = 1;
 const int shownError = 2;
 const int shownVisibility = 3;
 const int shownIlluminance = 4;
+
+// The values of penumbra::LightShape.
+const int shapeRect = 0;
+const int shapeSphere = 2;
+const int shapeDistant = 3;
 
 SHARED_STRUCT ComposeConstants {
     ivec2 size_px;
@@ -38,7 +43,7 @@ SHARED_STRUCT InspectConstants {
 SHARED_STRUCT LightViewConstants {
     mat4 lightFromClip;
     vec3 eyeLight;
-    int shape;  // of light_io.h
+    int shape;
     vec3 eyeWorldForward;
     float radius_m;
     vec2 halfSize_m;      // of a rect

@@ -196,7 +196,7 @@ TEST_F(ViewerTest, ShadersAreReadAgainAndTheLastGoodOnesKept) {
     for (const char* root : {"src", "studio"}) {
         for (const auto& entry : fs::recursive_directory_iterator(source / root)) {
             const std::string name = entry.path().filename();
-            if (!name.ends_with(".glsl") && !name.ends_with("_io.h")) continue;
+            if (!name.ends_with(".glsl") && !name.ends_with(".h")) continue;
             const fs::path copy = folder_.path() / fs::relative(entry.path(), source);
             fs::create_directories(copy.parent_path());
             fs::copy_file(entry.path(), copy);
