@@ -108,11 +108,10 @@ void DepthMap::draw(std::span<const Caster> casters, const LightSpaceScene& scen
         for (std::size_t i = 0; i < casters.size(); ++i) {
             const auto [first, count] = instancesOf(i);
             if (count == 0 || (casters[i].alphaMask.texture != 0) != hasHoles) continue;
-            if (!isNearest) {
+            if (surface == Surface::farthestFront) {
                 // Mirrored, a mesh shows its back as its front.
                 const bool isMirrored = glm::determinant(scene.lightFromMesh[i]) < 0;
-                state.cull =
-                    (surface == Surface::farthestBack) != isMirrored ? gl::Cull::front : gl::Cull::back;
+                state.cull = isMirrored ? gl::Cull::front : gl::Cull::back;
                 pass.state(state);
             }
             const Mesh& mesh = *casters[i].mesh;

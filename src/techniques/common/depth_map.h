@@ -21,7 +21,7 @@ class DepthMap {
     enum class Surface {
         nearest,        ///< no caster: depth 0
         farthestFront,  ///< the farthest among those that face the camera; no caster: depth 1
-        farthestBack,   ///< the farthest among those that face away from it; no caster: depth 1
+        farthest,       ///< the farthest of all: a back face, where meshes are closed; no caster: depth 1
     };
 
     explicit DepthMap(Device& device);

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <locale>
+#include <sstream>
 #include <string>
 
 #include "penumbra/device.h"
@@ -10,7 +13,8 @@
 namespace penumbra {
 namespace {
 
-constexpr int tableEntries = 256;
+/// So that the ratio 1, where the published curve has its kink, is an entry.
+constexpr int tableEntries = 257;
 constexpr int gridSteps = 64;
 /// Rounding of a few operations in single precision; nobody sees less.
 constexpr float tolerance = 1e-4f;
@@ -50,6 +54,43 @@ float smoothAttenuation(float sd, float sw) {
     return t * t * (3 - 2 * t);
 }
 
+AttenuationFunction readAttenuation(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    int line = 0;
+    const auto refuse = [&](const std::string& what) {
+        const std::string place = line == 0 ? "" : std::to_string(line) + ":";
+        throw Error(Error::Kind::badFile,
+                    file.string() + ":" + place + " " + what +
+                        "; a curve has a ratio sw / sd and the value of I on each line");
+    };
+    if (!stream) refuse("is neither the name of a curve nor a file that can be read");
+    struct Knot {
+        float ratio, value;
+    };
+    std::vector<Knot> knots;
+    for (std::string text; std::getline(stream, text);) {
+        ++line;
+        std::istringstream numbers(text.substr(0, text.find('#')));
+        numbers.imbue(std::locale::classic());
+        std::string rest;
+        Knot knot{};
+        if (!(numbers >> std::ws) || numbers.eof()) continue;
+        if (!(numbers >> knot.ratio >> knot.value) || numbers >> rest) refuse("is not two numbers");
+        if (knots.empty() && knot.ratio != 0) refuse("the first ratio is not 0");
+        if (!knots.empty() && !(knot.ratio > knots.back().ratio)) refuse("the ratio is not above the last");
+        knots.push_back(knot);
+    }
+    line = 0;
+    if (stream.bad() || knots.empty()) refuse("has no curve in it");
+    return [knots = std::move(knots)](float sd, float sw) {
+        const float ratio = sd == 0 ? 0 : sw / sd;
+        const auto after = std::ranges::upper_bound(knots, ratio, {}, &Knot::ratio);
+        if (after == knots.end()) return knots.back().value;
+        const Knot &from = *(after - 1), &to = *after;
+        return std::lerp(from.value, to.value, (ratio - from.ratio) / (to.ratio - from.ratio));
+    };
+}
+
 std::vector<float> tabulateAttenuation(const AttenuationFunction& attenuation) {
     for (int i = 1; i <= gridSteps; ++i) {
         const float ratio = attenuationTableEnd * float(i) / gridSteps;
@@ -78,6 +119,12 @@ std::vector<float> tabulateAttenuation(const AttenuationFunction& attenuation) {
     for (int i = 0; i < tableEntries; ++i)
         table[std::size_t(i)] = attenuation(1, attenuationTableEnd * float(i) / (tableEntries - 1));
     return table;
+}
+
+float umbraBegins(std::span<const float> table) {
+    const auto dark = std::ranges::find(table, 0.0f);
+    const auto entry = std::min(dark - table.begin(), std::ptrdiff_t(table.size()) - 1);
+    return attenuationTableEnd * float(entry) / float(table.size() - 1);
 }
 
 }  // namespace penumbra

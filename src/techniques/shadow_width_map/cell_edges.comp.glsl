@@ -7,17 +7,14 @@
 // since its steps are as many to either side as its slope tells. So it lies truer than to a texel.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#define DEPTH_MAP_UNIT 3
-#define DEPTH_MAP_BLOCK 0
 #include "src/techniques/common/depth_map.glsl"
 #include "src/techniques/shadow_width_map/edge_blocks.glsl"
 #include "src/techniques/shadow_width_map/edge_cells.glsl"
+#include "src/techniques/shadow_width_map/shadow_width_io.h"
 
-layout(binding = 0, rgba32ui) uniform writeonly uimage2DArray cellEdges;
-layout(binding = 2) uniform sampler2DArray farthestMaps;
-layout(location = 0) uniform int kinds;
-layout(location = 1) uniform int cell_px;  // 1, 2, 4 or 8
-layout(location = 2) uniform int mapCount;
+layout(std140) uniform Constants { EdgeConstants edges; };
+layout(rgba32ui) uniform writeonly uimage2DArray cellEdges;
+uniform sampler2DArray farthestMaps;
 
 const int cellsOfKind = 64;  // at most
 const int around_px = 4;
@@ -38,9 +35,9 @@ uint sidesOf(ivec3 texel, int place) {
         float next = nearest[place + steps[i]];
         float bend = min(2.0 * here - nearest[place - steps[i]] - next, here + nearest[place + 2 * steps[i]] - 2.0 * next);
         if (next == 0.0) sides |= 1u << i;
-        else if (kinds > 1 && min(here - next, bend) > jump) sides |= 16u << i;
+        else if (edges.kinds > 1 && min(here - next, bend) > jump) sides |= 16u << i;
         // What is farthest is hidden here, and ends beneath something else.
-        if (kinds < 3 || here - far <= jump) continue;
+        if (edges.kinds < 3 || here - far <= jump) continue;
         next = farthest[place + steps[i]];
         bend = min(next - 2.0 * far + farthest[place - steps[i]], 2.0 * next - far - farthest[place + 2 * steps[i]]);
         if (next < 1.0 && min(next - far, bend) > jumpBelow(texel.z, next)) sides |= 256u << i;
@@ -92,7 +89,7 @@ void keepEdge(ivec3 corner, int cell, int kind, int place) {
     // Cells of one texel are those of small maps, in which a blocker may be a few texels large: lines no longer than that.
     // First what is close, so that beside a corner the silhouette's other leg stays out.
     Line line = fitLine(texel, kind, 1, Line(vec2(0.0), vec2(0.0)), 0.0);
-    line = fitLine(texel, kind, cell_px == 1 ? 1 : min(cell_px + 1, around_px), line, 1.0);
+    line = fitLine(texel, kind, edges.cell_px == 1 ? 1 : min(edges.cell_px + 1, around_px), line, 1.0);
     vec2 middle = line.middle, normal = line.normal;
     uint direction = 0u;
     float most = -2.0;
@@ -109,22 +106,22 @@ void keepEdge(ivec3 corner, int cell, int kind, int place) {
     texel += corner.xy;
     uvec4 edge = packEdge(texel, direction, middle + vec2(corner.xy), normal,
                           kind == 2 ? farthest[here] : nearest[here], kind == 2 ? farthest[behind] : nearest[behind]);
-    int across = 8 / cell_px;
-    ivec2 place_cells = (corner.xy + around_px) / cell_px + ivec2(cell % across, cell / across);
-    imageStore(cellEdges, ivec3(place_cells, corner.z + kind * mapCount), edge);
+    int across = 8 / edges.cell_px;
+    ivec2 place_cells = (corner.xy + around_px) / edges.cell_px + ivec2(cell % across, cell / across);
+    imageStore(cellEdges, ivec3(place_cells, corner.z + kind * edges.mapCount), edge);
 }
 
 void main() {
     uint block = edgeBlocks[gl_WorkGroupID.x];
     ivec3 corner = ivec3(8 * ivec2(block & 0x3ffu, block >> 10 & 0x3ffu) - around_px, block >> 20);  // of the tile
     ivec2 within = ivec2(gl_LocalInvocationID.xy);
-    int lane = int(gl_LocalInvocationIndex), across = 8 / cell_px;
+    int lane = int(gl_LocalInvocationIndex), across = 8 / edges.cell_px;
 
     ivec2 last = textureSize(depthMaps, 0).xy - 1;
     for (int i = lane; i < wide_px * wide_px; i += 64) {
         ivec3 texel = ivec3(clamp(corner.xy - 2 + ivec2(i % wide_px, i / wide_px), ivec2(0), last), corner.z);
         nearest[i] = texelFetch(depthMaps, texel, 0).r;
-        farthest[i] = kinds > 2 ? texelFetch(farthestMaps, texel, 0).r : 1.0;
+        farthest[i] = edges.kinds > 2 ? texelFetch(farthestMaps, texel, 0).r : 1.0;
     }
     for (int kind = 0; kind < 3; ++kind) keys[cellsOfKind * kind + lane] = 0xffffffffu;
     barrier();
@@ -135,16 +132,16 @@ void main() {
     barrier();
 
     int own = (within.y + around_px) * tile_px + within.x + around_px;
-    int cell = within.y / cell_px * across + within.x / cell_px;
-    ivec2 fromMiddle = 2 * (within % cell_px) + 1 - cell_px;
+    int cell = within.y / edges.cell_px * across + within.x / edges.cell_px;
+    ivec2 fromMiddle = 2 * (within % edges.cell_px) + 1 - edges.cell_px;
     uint key = uint(fromMiddle.x * fromMiddle.x + fromMiddle.y * fromMiddle.y) << 16 | uint(own);
-    for (int kind = 0; kind < kinds; ++kind) {
+    for (int kind = 0; kind < edges.kinds; ++kind) {
         if ((sidesAt[own] >> (4 * kind) & 15u) != 0u) atomicMin(keys[cellsOfKind * kind + cell], key);
     }
     barrier();
 
     int cells = across * across;
-    for (int i = lane; i < kinds * cells; i += 64) {
+    for (int i = lane; i < edges.kinds * cells; i += 64) {
         uint key = keys[cellsOfKind * (i / cells) + i % cells];
         if (key != 0xffffffffu) keepEdge(corner, i % cells, i / cells, int(key & 0xffffu));
     }

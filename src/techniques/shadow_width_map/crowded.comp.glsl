@@ -49,7 +49,7 @@ float seenAmong(Receiving r, Footprint footprint, float seen, float deepest) {
         // in common. A gap narrower than cells tell may as well be a blocker's tip.
         float weight = smoothstep(0.6, 0.9, abs(dot(otherAway, normalOf(other))));
         if (isConvex) weight *= 1.0 - smoothstep(0.15, 0.4, abs(blocker - r.nearness - n.above) / max(n.above, 1e-9));
-        else weight *= smoothstep(1.0, 2.0, -between_px / float(constants.cells.x));
+        else weight *= smoothstep(1.0, 2.0, -between_px / float(constants.cell_px));
         seen = mix(seen, both, weight);
     }
     return seen;

@@ -4,8 +4,8 @@
 #include "src/techniques/shadow_width_map/footprint.glsl"
 #include "src/techniques/shadow_width_map/edge_cells.glsl"
 
-layout(binding = 4) uniform usampler2DArray nearestEdges;
-layout(binding = 5) uniform sampler2DArray farthestMaps;
+uniform usampler2DArray nearestEdges;
+uniform sampler2DArray farthestMaps;
 
 // What an edge is to a receiver.
 struct Division {
@@ -21,7 +21,7 @@ Division divide(Receiving r, uvec4 edge, bool isInner) {
     bool stands = isEdge(edge) && nearnessOf(r.depth, stored) > r.nearness && isAbove(r, edgeTexel(edge), stored);
     division.isBehindToo = stands && isInner && isAbove(r, texelBehind(edge), storedBehindEdge(edge));
     division.isEdge = stands && !division.isBehindToo;
-    division.way_px = nearestOnEdge(edge, r.place_px, float(constants.cells.x)) - r.place_px;
+    division.way_px = nearestOnEdge(edge, r.place_px, float(constants.cell_px)) - r.place_px;
     division.width_px = isEdge(edge) ? length(division.way_px) : 1e9;
     return division;
 }
@@ -39,7 +39,7 @@ float seenPast(Receiving r, Footprint footprint, uvec4 edge, Division division, 
 }
 
 uvec4 nearestTo(vec2 place_px, int layer) {
-    ivec2 cell = clamp(cellAt(place_px, constants.cells.x), ivec2(0), ivec2(constants.cells.y - 1));
+    ivec2 cell = clamp(cellAt(place_px, constants.cell_px), ivec2(0), ivec2(constants.cellsAcross - 1));
     return texelFetch(nearestEdges, ivec3(cell, layer), 0);
 }
 
@@ -78,7 +78,7 @@ float seenPastHidden(Receiving r, Footprint footprint, ivec2 cell) {
     bool isBeneath = farthest < 0.5 * (storedAtEdge(hidden) + storedBehindEdge(hidden));
     if (isBeneath) {
         vec2 toOutline = nearestOnEdge(texelFetch(nearestEdges, ivec3(cell, r.camera), 0), r.place_px,
-                                       float(constants.cells.x)) - r.place_px;
+                                       float(constants.cell_px)) - r.place_px;
         if (length(toOutline) < division.width_px || !isAbove(r, texel, farthest)) return 1.0;
     }
     return seenPast(r, footprint, hidden, division, nearnessOf(r.depth, storedAtEdge(hidden)), isBeneath);
@@ -87,14 +87,14 @@ float seenPastHidden(Receiving r, Footprint footprint, ivec2 cell) {
 // What is seen past the nearest edges. Visibility is interpolated between cells; neither widths nor depths mean anything in
 // between. At most, apart from that, what hidden edges leave.
 float seenPastNearest(Receiving r, Footprint footprint, bool isBlocked, float own, out float atMost) {
-    vec2 place = r.place_px / float(constants.cells.x) - 0.5;
+    vec2 place = r.place_px / float(constants.cell_px) - 0.5;
     ivec2 corner = ivec2(floor(place));
     vec2 weight = place - vec2(corner);
     float seen = 0.0;
     atMost = kinds > 2 ? 0.0 : 1.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);
-        ivec2 cell = clamp(corner + offset, ivec2(0), ivec2(constants.cells.y - 1));
+        ivec2 cell = clamp(corner + offset, ivec2(0), ivec2(constants.cellsAcross - 1));
         vec2 share = mix(1.0 - weight, weight, vec2(offset));
         if (kinds > 2) atMost += share.x * share.y * seenPastHidden(r, footprint, cell);
         seen += share.x * share.y * seenFromCell(r, footprint, cell, isBlocked, own);

@@ -4,13 +4,12 @@
 // resolution. An edge has more than a jump between two neighbours; whether their surfaces bend as well is asked later.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#define DEPTH_MAP_UNIT 3
-#define DEPTH_MAP_BLOCK 0
 #include "src/techniques/common/depth_map.glsl"
 #include "src/techniques/shadow_width_map/edge_blocks.glsl"
+#include "src/techniques/shadow_width_map/shadow_width_io.h"
 
-layout(binding = 2) uniform sampler2DArray farthestMaps;
-layout(location = 0) uniform int kinds;
+layout(std140) uniform Constants { EdgeConstants edges; };
+uniform sampler2DArray farthestMaps;
 
 struct Steps {
     float least, most;  // stored depths
@@ -45,8 +44,8 @@ void main() {
 
     Steps nearest = stepsIn(depthMaps, block, float(size_px));
     bool isEdge = nearest.least == 0.0 && nearest.most > 0.0;  // an outline
-    if (kinds > 1) isEdge = isEdge || nearest.most > 0.0 && nearest.greatest > jumpBelow(block.z, nearest.least);
-    if (kinds > 2) {
+    if (edges.kinds > 1) isEdge = isEdge || nearest.most > 0.0 && nearest.greatest > jumpBelow(block.z, nearest.least);
+    if (edges.kinds > 2) {
         Steps farthest = stepsIn(farthestMaps, block, float(size_px));
         isEdge = isEdge || farthest.least < 1.0 && farthest.greatest > jumpBelow(block.z, farthest.least);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blocks of 8 x 8 texels that may have an edge in them, in no order: column, row (10 bits each) and map. Their number
 // is an indirect dispatch's.
-layout(std430, binding = 1) buffer EdgeBlocks {
+layout(std430) buffer EdgeBlocks {
     uint blockCount, blockRows, blockLayers, padding;
     uint edgeBlocks[];
 };

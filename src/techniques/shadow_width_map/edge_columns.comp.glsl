@@ -5,10 +5,11 @@
 layout(local_size_x = 16) in;
 
 #include "src/techniques/shadow_width_map/edge_cells.glsl"
+#include "src/techniques/shadow_width_map/shadow_width_io.h"
 
-layout(binding = 0) uniform usampler2DArray cellEdges;
-layout(binding = 0, rg32f) uniform image2DArray columns_px;  // places in the map
-layout(location = 1) uniform int cell_px;
+layout(std140) uniform Constants { EdgeConstants edges; };
+uniform usampler2DArray cellEdges;
+layout(rg32f) uniform image2DArray columns_px;  // places in the map
 
 void main() {
     int cells = textureSize(cellEdges, 0).x;
@@ -17,11 +18,11 @@ void main() {
     vec2 nearest_px = vec2(-1.0);
     for (cell.y = 0; cell.y < cells; ++cell.y) {
         uvec4 edge = texelFetch(cellEdges, cell, 0);
-        if (isEdge(edge)) nearest_px = placeInCell(edge, cell.xy, cell_px);
+        if (isEdge(edge)) nearest_px = placeInCell(edge, cell.xy, edges.cell_px);
         imageStore(columns_px, cell, nearest_px.xyxy);
     }
     for (cell.y = cells - 2; cell.y >= 0; --cell.y) {
-        float center_px = (float(cell.y) + 0.5) * float(cell_px);
+        float center_px = (float(cell.y) + 0.5) * float(edges.cell_px);
         vec2 own_px = imageLoad(columns_px, cell).xy;
         bool isNearer =
             own_px.y >= 0.0 && (nearest_px.y < 0.0 || abs(own_px.y - center_px) <= abs(nearest_px.y - center_px));

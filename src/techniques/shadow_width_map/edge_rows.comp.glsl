@@ -5,20 +5,16 @@
 // never exceeds the column that it begins at, so that reading backwards, each is read before it is overwritten.
 layout(local_size_x = 16) in;
 
-#define DEPTH_MAP_UNIT 3
-#define DEPTH_MAP_BLOCK 0
 #include "src/techniques/common/depth_map.glsl"
 #include "src/techniques/shadow_width_map/edge_cells.glsl"
+#include "src/techniques/shadow_width_map/shadow_width_io.h"
 #include "src/techniques/shadow_width_map/spread.glsl"
 
-layout(binding = 0) uniform usampler2DArray cellEdges;
-layout(binding = 1) uniform sampler2DArray columns_px;
-layout(binding = 0, rgba32ui) uniform uimage2DArray nearestEdges;
-layout(binding = 1, rg32f) uniform image2DArray widths;
-layout(location = 0) uniform int kinds;
-layout(location = 1) uniform int cell_px;
-layout(location = 2) uniform int mapCount;
-layout(location = 3) uniform float halfExtent;  // the light's largest
+layout(std140) uniform Constants { EdgeConstants edges; };
+uniform usampler2DArray cellEdges;
+uniform sampler2DArray columns_px;
+layout(rgba32ui) uniform uimage2DArray nearestEdges;
+layout(rg32f) uniform image2DArray widths;
 
 struct Parabola {
     vec2 edge_px;
@@ -32,7 +28,7 @@ Parabola unpack(uvec4 entry) {
     return Parabola(p.xy, p.z, int(entry.w));
 }
 
-float centerOf(int cell) { return (float(cell) + 0.5) * float(cell_px); }
+float centerOf(int cell) { return (float(cell) + 0.5) * float(edges.cell_px); }
 float valueAt(Parabola p, int cell) {
     float across = centerOf(cell) - p.edge_px.x;
     return across * across + p.height;
@@ -55,28 +51,28 @@ void sweepRow(ivec3 cell, int cells) {
             // Where `next` gets lower; not before p.begin, since it is not lower there.
             float dx = next.edge_px.x - p.edge_px.x;
             float across = 0.5 * (next.edge_px.x + p.edge_px.x + (next.height - p.height) / dx);
-            next.begin = max(p.begin, int(min(floor(across / float(cell_px) - 0.5), float(cells)))) + 1;
+            next.begin = max(p.begin, int(min(floor(across / float(edges.cell_px) - 0.5), float(cells)))) + 1;
             if (next.begin >= cells) continue;
         }
         imageStore(nearestEdges, ivec3(++top, cell.yz), pack(next));
         p = next;
     }
 
-    int map = cell.z % mapCount;
+    int map = cell.z % edges.mapCount;
     float steepest = widestPerExtent(map);
     for (cell.x = cells - 1; cell.x >= 0; --cell.x) {
         uvec4 edge = uvec4(0u);
-        vec2 width = vec2(2.0 * float(cells * cell_px), noPenumbra);
+        vec2 width = vec2(2.0 * float(cells * edges.cell_px), noPenumbra);
         if (top >= 0) {
-            edge = texelFetch(cellEdges, ivec3(cellAt(p.edge_px, cell_px), cell.z), 0);
-            vec2 center_px = (vec2(cell.xy) + 0.5) * float(cell_px);
-            width.x = distance(center_px, nearestOnEdge(edge, center_px, float(cell_px)));
-            width.y = penumbraBegins(map, storedAtEdge(edge), width.x - 1.5 * float(cell_px), halfExtent * steepest);
+            edge = texelFetch(cellEdges, ivec3(cellAt(p.edge_px, edges.cell_px), cell.z), 0);
+            vec2 center_px = (vec2(cell.xy) + 0.5) * float(edges.cell_px);
+            width.x = distance(center_px, nearestOnEdge(edge, center_px, float(edges.cell_px)));
+            width.y = penumbraBegins(map, storedAtEdge(edge), width.x - 1.5 * float(edges.cell_px), edges.halfExtent * steepest);
             if (cell.x == p.begin && --top >= 0) p = unpack(imageLoad(nearestEdges, ivec3(top, cell.yz)));
         }
         imageStore(nearestEdges, cell, edge);
-        // In the outlines' layer for all kinds.
-        if (cell.z + mapCount < kinds * mapCount) width.y = max(width.y, imageLoad(widths, cell + ivec3(0, 0, mapCount)).y);
+        // In the outlines' layer for all edges.kinds.
+        if (cell.z + edges.mapCount < edges.kinds * edges.mapCount) width.y = max(width.y, imageLoad(widths, cell + ivec3(0, 0, edges.mapCount)).y);
         imageStore(widths, cell, width.xyxy);
     }
 }
@@ -85,5 +81,5 @@ void main() {
     int cells = imageSize(nearestEdges).x;
     ivec3 cell = ivec3(0, gl_GlobalInvocationID.xy);
     if (cell.y >= cells) return;
-    for (int kind = kinds - 1; kind >= 0; --kind) sweepRow(cell + ivec3(0, 0, kind * mapCount), cells);
+    for (int kind = edges.kinds - 1; kind >= 0; --kind) sweepRow(cell + ivec3(0, 0, kind * edges.mapCount), cells);
 }

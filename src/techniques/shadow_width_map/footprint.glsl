@@ -13,23 +13,23 @@ struct Footprint {
 };
 
 Footprint footprintOf(Receiving r) {
-    vec2 slope = constants.light.x == distantLight ? vec2(0.0) : r.posFace.xy / r.posFace.z;
-    if (constants.light.x >= sphereLight) return Footprint(slope, vec2(0.0));
-    vec3 x = turnedToFace(r.camera, constants.halfAxisX.xyz), y = turnedToFace(r.camera, constants.halfAxisY.xyz);
+    vec2 slope = constants.light.shape == shapeDistant ? vec2(0.0) : r.posFace.xy / r.posFace.z;
+    if (constants.light.shape >= shapeSphere) return Footprint(slope, vec2(0.0));
+    vec3 x = turnedToFace(r.camera, constants.halfAxisX), y = turnedToFace(r.camera, constants.halfAxisY);
     return Footprint(x.xy - slope * x.z, y.xy - slope * y.z);
 }
 
 // Half extents along the unit vector `across`, for each of the light's axes; round lights have one.
 vec2 halfExtents(Footprint footprint, vec2 across) {
     vec2 extents = abs(vec2(dot(across, footprint.axisX), dot(across, footprint.axisY)));
-    if (constants.light.x == rectLight) return extents;
-    if (constants.light.x == diskLight) return vec2(length(extents), 0.0);
-    return vec2(constants.halfAxisX.w * sqrt(1.0 + extents.x * extents.x), 0.0);
+    if (constants.light.shape == shapeRect) return extents;
+    if (constants.light.shape == shapeDisk) return vec2(length(extents), 0.0);
+    return vec2(constants.radius * sqrt(1.0 + extents.x * extents.x), 0.0);
 }
 
 // Share of the footprint at places below `edge`.
 float shareBelow(vec2 extents, float edge) {
-    if (constants.light.x != rectLight) {
+    if (constants.light.shape != shapeRect) {
         float d = clamp(edge / extents.x, -1.0, 1.0);
         return 0.5 + (asin(d) + d * sqrt(1.0 - d * d)) / 3.14159265;
     }

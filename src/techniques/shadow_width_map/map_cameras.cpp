@@ -123,6 +123,18 @@ std::pmr::vector<Caster> castersThatHideEdges(const ShadowInputs& inputs, const 
     return casters;
 }
 
+double planeBehindCasters_m(const ShadowInputs& inputs, const LightSpaceScene& scene,
+                            std::span<const LightCamera> cameras) {
+    double farthest_m = 0;
+    for (const LightCamera& camera : cameras) {
+        for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
+            if (inputs.casters[i].casts && camera.mightSee(scene.boxes[i]))
+                farthest_m = std::max(farthest_m, seenBy(camera, scene.boxes[i]).farthest_m);
+        }
+    }
+    return farthest_m;
+}
+
 LightCameras fitMapCameras(const AreaLight& light, const LightSpaceScene& scene, int mapSize_px) {
     LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px, .steadyAxis = true});
     for (LightCamera& camera : cameras) {

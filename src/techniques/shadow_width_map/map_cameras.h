@@ -18,6 +18,10 @@ LightCameras fitMapCameras(const AreaLight& light, const LightSpaceScene& scene,
 void appendMapKey(std::pmr::vector<double>& key, const ShadowInputs& inputs, const LightSpaceScene& scene,
                   std::span<const LightCamera> cameras);
 
+/// How far away, along the cameras' axes, a plane is that lies behind all that casts: A of section 3.
+double planeBehindCasters_m(const ShadowInputs& inputs, const LightSpaceScene& scene,
+                            std::span<const LightCamera> cameras);
+
 /// The casters, without those that nothing receives behind, if any two of the rest overlap as a camera sees
 /// them, so that edges of one may be hidden by the other; else none. By their bounding boxes; as many as the
 /// input's, those left out do not cast.

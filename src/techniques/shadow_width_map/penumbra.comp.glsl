@@ -7,10 +7,10 @@ layout(local_size_x = 64) in;
 #include "src/techniques/shadow_width_map/divisions.glsl"
 #include "src/techniques/shadow_width_map/penumbra_pixels.glsl"
 
-layout(binding = 6) uniform sampler2DArray widths;
+uniform sampler2DArray widths;
 
 float widthAt(vec2 place_px, int layer) {
-    ivec2 cell = clamp(cellAt(place_px, constants.cells.x), ivec2(0), ivec2(constants.cells.y - 1));
+    ivec2 cell = clamp(cellAt(place_px, constants.cell_px), ivec2(0), ivec2(constants.cellsAcross - 1));
     return texelFetch(widths, ivec3(cell, layer), 0).r;
 }
 
@@ -18,7 +18,7 @@ float widthAt(vec2 place_px, int layer) {
 // the widths of cells tell.
 bool isCrowded(Receiving r, Footprint footprint) {
     Nearest n = nearestOf(r, footprint);
-    float far_px = n.reach_px - 2.0 * float(constants.cells.x);
+    float far_px = n.reach_px - 2.0 * float(constants.cell_px);
     return n.division.isEdge && (widthAt(n.behind_px, n.layer) < n.division.width_px + far_px ||
                                  widthAt(n.beyond_px, n.layer) < far_px);
 }

@@ -1,29 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // What both resolving shaders ask of the light, the receiver and the maps.
 #include "src/techniques/common/view.glsl"
-#define DEPTH_MAP_UNIT 3
-#define DEPTH_MAP_BLOCK 0
 #include "src/techniques/common/depth_map.glsl"
 #include "src/techniques/shadow_width_map/shadow_width_io.h"
 
-layout(std140, binding = 1) uniform ShadowWidthBlock { ShadowWidthConstants constants; };
-layout(binding = 0) uniform writeonly image2D visibility;
-
-const int rectLight = 0, diskLight = 1, sphereLight = 2, distantLight = 3;
+layout(std140) uniform ShadowWidthBlock { ShadowWidthConstants constants; };
+uniform writeonly image2D visibility;
 
 // Whether any of the light, or its centre, is above the surface's horizon and on the side that the light emits to.
 bool isFacing(Receiver receiver, bool anyOfLight) {
     vec3 normal = receiver.normalLight;
-    float height_m = -dot(normal, constants.light.x == distantLight ? constants.emission.xyz : receiver.posLight);
+    float height_m = -dot(normal, constants.light.shape == shapeDistant ? constants.emission : receiver.posLight);
     if (anyOfLight) {
-        float across = constants.light.x == distantLight ? sqrt(max(1.0 - height_m * height_m, 0.0)) : 1.0;
-        height_m += constants.halfAxisX.w * across;
-        float x = dot(normal, constants.halfAxisX.xyz), y = dot(normal, constants.halfAxisY.xyz);
-        height_m += constants.light.x == rectLight ? abs(x) + abs(y) : length(vec2(x, y));
+        float across = constants.light.shape == shapeDistant ? sqrt(max(1.0 - height_m * height_m, 0.0)) : 1.0;
+        height_m += constants.radius * across;
+        float x = dot(normal, constants.halfAxisX), y = dot(normal, constants.halfAxisY);
+        height_m += constants.light.shape == shapeRect ? abs(x) + abs(y) : length(vec2(x, y));
     }
     // Nothing but a line of the light above the horizon is nothing.
     float least_m = anyOfLight ? 1e-5 * length(receiver.posLight) : 0.0;
-    return height_m > least_m && (constants.light.z == 0 || dot(receiver.posLight, constants.emission.xyz) > 0.0);
+    return height_m > least_m && (!constants.light.isOneSided || dot(receiver.posLight, constants.emission) > 0.0);
 }
 
 // Software rasterizers run both sides of every branch, and read a storage block anew for every pixel and use; most lights
@@ -31,7 +27,7 @@ bool isFacing(Receiver receiver, bool anyOfLight) {
 #ifdef KINDS
 const int kinds = KINDS;
 #else
-int kinds = constants.light.w;
+int kinds = constants.kinds;
 #endif
 
 #ifdef ONE_MAP
@@ -40,7 +36,7 @@ LightCameraConstants cameraOf(int map) { return constants.firstCamera; }
 vec3 turnedToFace(int map, vec3 direction) { return direction; }
 vec3 movedToFace(int map, vec3 pos) { return pos; }
 #else
-int mapCount = constants.light.y;
+int mapCount = constants.mapCount;
 LightCameraConstants cameraOf(int map) {
     if (mapCount == 1) return constants.firstCamera;
     return lightCameras[map];

@@ -8,12 +8,12 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/shadow_width_map/receiving.glsl"
 #include "src/techniques/shadow_width_map/penumbra_pixels.glsl"
 
-layout(binding = 4) uniform sampler2DArray widths;
+uniform sampler2DArray widths;
 
 // The nearness at which penumbrae of the edges around this place begin: those of all cells that penumbra.comp.glsl
 // interpolates between, so that what is skipped is exact.
 float penumbraBeginsAt(Receiving r) {
-    vec2 uv = r.place_px / float(constants.cells.x * constants.cells.y);
+    vec2 uv = r.place_px / float(constants.cell_px * constants.cellsAcross);
     vec4 begins = textureGather(widths, vec3(uv, r.camera), 1);
     return max(max(begins.x, begins.y), max(begins.z, begins.w));
 }
@@ -30,7 +30,7 @@ float seenBy(Receiver receiver) {
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
+    if (any(greaterThanEqual(pixel, view.size_px))) return;
     Receiver receiver;
     float seen = loadReceiver(pixel, receiver) ? seenBy(receiver) : 1.0;
     if (seen >= 0.0) {

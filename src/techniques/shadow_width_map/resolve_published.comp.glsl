@@ -6,14 +6,13 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/shadow_width_map/receiver.glsl"
 
-layout(binding = 4) uniform sampler2DArray widths;
-layout(binding = 5) uniform sampler2D curve;
-layout(location = 1) uniform float curveEnd;  // the ratio that the table ends at
-layout(location = 0) uniform float background;  // the depth where there is no caster
+layout(std140) uniform Constants { AttenuationConstants attenuation; };
+uniform sampler2DArray widths;
+uniform sampler2D curve;
 
 // Linear depth of a texel; where there is no caster, the shadow depth shall be 0.
 float blockerDepth_m(int camera, vec3 receiverFace, float stored) {
-    return stored == background ? receiverFace.z : min(depthFace_m(camera, stored), receiverFace.z);
+    return stored == attenuation.background ? receiverFace.z : min(depthFace_m(camera, stored), receiverFace.z);
 }
 
 float seenBy(Receiver receiver) {
@@ -38,24 +37,29 @@ float seenBy(Receiver receiver) {
     float slope = length(normalFace.xy) / max(0.1, abs(normalFace.z));
     float tolerance_m = point.texel_m * (1.0 + slope) + 4e-6 * length(point.posFace);
     if (sd_m <= tolerance_m) return 1.0;
-    float sw_m = width * constants.attenuation.z * point.texel_m;
-    // The true umbra begins where the width is a share of the light's half extent: sw = a sd / z_b.
-    float scale = constants.attenuation.x;
-    if (scale < 0.0) {
-        bool distant = constants.light.x == distantLight;
-        float extent = constants.halfAxisY.w;
+    vec4 depth = cameraOf(camera).depth;
+    float texel_m = attenuation.plane_m == 0.0 || depth.z == 1.0 ? point.texel_m : depth.w * attenuation.plane_m;
+    float sw_m = width * attenuation.unit_px * texel_m;
+    float scale = attenuation.cScale;
+    // The true umbra begins where the width is a share of the light's half extent: sw = a sd / z_b. Widths end at 1, which
+    // is umbra too: where that is less than the light asks for, the penumbra is as narrow.
+    if (attenuation.isPhysical) {
+        bool distant = constants.light.shape == shapeDistant;
+        float extent = attenuation.meanHalfExtent;
         if (extent == 0.0) return sw_m > 0.0 ? 0.0 : 1.0;
         scale = distant ? 1.0 / extent : max(point.posFace.z - sd_m, 0.0) / extent;
     }
     float ratio = scale * sw_m / sd_m;
+    if (attenuation.isPhysical) ratio = max(ratio, width * (attenuation.umbraBegins + attenuation.cBias));
+    // The bias moves the curve outwards, which for the published one is to add it: 1 + c_bias - c_scale sw / sd.
     float entries = float(textureSize(curve, 0).x);
-    float entry = min(ratio / curveEnd, 1.0) * (entries - 1.0) + 0.5;
-    return clamp(constants.attenuation.y + textureLod(curve, vec2(entry / entries, 0.5), 0.0).r, 0.0, 1.0);
+    float entry = clamp((ratio - attenuation.cBias) / attenuation.curveEnd, 0.0, 1.0) * (entries - 1.0) + 0.5;
+    return clamp(textureLod(curve, vec2(entry / entries, 0.5), 0.0).r, 0.0, 1.0);
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
+    if (any(greaterThanEqual(pixel, view.size_px))) return;
     Receiver receiver;
     imageStore(visibility, pixel, vec4(loadReceiver(pixel, receiver) ? seenBy(receiver) : 1.0));
 }

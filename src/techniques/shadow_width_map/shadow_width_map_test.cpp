@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <memory>
@@ -173,6 +175,95 @@ TEST_F(ShadowWidthTest, WhatEndsBeneathAnotherCasterKeepsItsUmbra) {
         judge(exact, render("shadow-width", scene, {320, 180}, {{"hidden_edges", "false"}}));
     EXPECT_LT(with.leak, 0.6 * without.leak);
     EXPECT_LT(with.penumbra_rmse, without.penumbra_rmse);
+}
+
+// -- The equation, where everything in it is known: a straight edge 2 m above the ground
+// -------------------------------------------------------------------------------------------
+
+/// From straight above, 4 m across.
+Scene straightEdge(LightShape shape = LightShape::rect, float zoom = 1) {
+    return withMoment(withLight(makeBuiltin("half-plane"), [&](Light& light) { light.shape.shape = shape; }),
+                      [&](SceneMoment& moment) {
+                          moment.cameras.erase(moment.cameras.begin());
+                          *moment.cameras.front().orthographicHeight_m /= zoom;
+                      });
+}
+
+/// How deep a column of that picture lies in the geometric shadow.
+double depthInShadow_m(int column, int columns, float zoom = 1) {
+    return (0.5 * columns - column - 0.5) * 4 / columns / zoom;
+}
+
+TEST_F(ShadowWidthTest, AttenuationIsTheEquations) {
+    const LightResult result =
+        render("shadow-width", straightEdge(LightShape::distant), size,
+               {{"mode", "cpu-sweep"}, {"physical", "false"}, {"c_scale", "3"}, {"c_bias", "0.5"}});
+    const double sd_m = 2;
+    for (int x = 0; x < size.width_px; ++x) {
+        const double sw_m = depthInShadow_m(x, size.width_px);
+        if (sw_m > 1.05) continue;  // wider than 256 texels
+        const double expected = sw_m <= 0 ? 1 : std::clamp(1 + 0.5 - 3 * sw_m / sd_m, 0.0, 1.0);
+        EXPECT_NEAR(result.visibility.at(x, size.height_px / 2, 0), expected, 0.01) << sw_m;
+    }
+}
+
+/// What is wider than the starting difference can tell is umbra: the penumbra gets narrower and nothing else.
+TEST_F(ShadowWidthTest, UmbrasAreBlackAtEveryStartingDifferenceAndZoom) {
+    for (const float zoom : {0.5f, 1.0f, 4.0f}) {
+        double before = 0;  // light in the shadow
+        for (const char* start : {"1/4", "1/16", "1/64", "1/256"}) {
+            const LightResult result = render("shadow-width", straightEdge(LightShape::rect, zoom), size,
+                                              {{"mode", "compositing"}, {"start_difference", start}});
+            double light = 0;
+            for (int x = 0; x < size.width_px; ++x) {
+                const double sw_m = depthInShadow_m(x, size.width_px, zoom);
+                const float seen = result.visibility.at(x, size.height_px / 2, 0);
+                if (sw_m > 0.52) EXPECT_EQ(seen, 0) << zoom << " " << start << " " << sw_m;
+                if (sw_m > 0) light += seen;
+            }
+            EXPECT_GE(light, before) << zoom << " " << start;
+            before = light;
+        }
+    }
+}
+
+/// At the receiver, 4 m from the light, a distance in the map is twice what it is on a plane at the blocker.
+TEST_F(ShadowWidthTest, WidthsAreMeasuredAtTheReceiverOrOnAPlaneBehindTheBlockers) {
+    for (const auto& [place, factor] : {std::pair("receiver", 1.0), {"plane", 0.5}}) {
+        const LightResult result =
+            render("shadow-width", straightEdge(), size,
+                   {{"mode", "cpu-sweep"}, {"physical", "false"}, {"c_scale", "2"}, {"widths_at", place}});
+        for (int x = 0; x < size.width_px; ++x) {
+            const double sw_m = depthInShadow_m(x, size.width_px);
+            if (sw_m < 0.02 || sw_m > 0.98) continue;
+            EXPECT_NEAR(result.visibility.at(x, size.height_px / 2, 0), 1 - factor * sw_m, 0.01) << place;
+        }
+    }
+}
+
+TEST_F(ShadowWidthTest, ACurveOfOnesOwnComesFromAFile) {
+    const std::filesystem::path file = std::filesystem::temp_directory_path() / "shadow_width.curve";
+    const std::unique_ptr<Technique> technique = workbench().makeTechnique("shadow-width");
+    setParameter(*technique, "mode", "cpu-sweep");
+    setParameter(*technique, "physical", "false");
+    setParameter(*technique, "c_scale", "2");
+    std::ofstream(file) << "0 1\n0.5 0.8\n1 0\n";
+    setParameter(*technique, "curve", file.string());
+    const LightResult result = render(*technique, straightEdge(), size);
+    for (int x = 0; x < size.width_px; ++x) {
+        const double ratio = depthInShadow_m(x, size.width_px);
+        if (ratio < 0.02 || ratio > 0.98) continue;
+        const double expected = ratio < 0.5 ? 1 - 0.4 * ratio : 1.6 * (1 - ratio);
+        EXPECT_NEAR(result.visibility.at(x, size.height_px / 2, 0), expected, 0.015) << ratio;
+    }
+    std::ofstream(file) << "0 0.9\n1 0\n";
+    EXPECT_THROW(setParameter(*technique, "curve", "linea"), Error);
+    setParameter(*technique, "curve", "smooth");
+    EXPECT_THROW(setParameter(*technique, "curve", file.string()), Error) << "the shadow's border is not lit";
+    const LightResult smooth = render(*technique, straightEdge(), size);
+    EXPECT_NEAR(smooth.visibility.at(size.width_px / 4 - 1, size.height_px / 2, 0), 0, 0.02)
+        << "still the last that was good";
+    std::filesystem::remove(file);
 }
 
 // -- Bad and borderline input

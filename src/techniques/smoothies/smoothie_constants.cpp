@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace penumbra {
 namespace {
@@ -22,16 +23,41 @@ double farthestReceiver_m(const LightCamera& camera, const LightSpaceScene& scen
     return farthest_m;
 }
 
+/// The light frustum that the paper's t is measured in, whatever the view shows of the scene: 90 degrees
+/// wide, or, for want of a place to look from, as wide as all that casts.
+struct LightFrustum {
+    double half = 1;       ///< its window, in tangents or metres
+    double nearest_m = 0;  ///< orthographic cameras: of all that casts, along their axis
+};
+
+LightFrustum lightFrustum(std::span<const Caster> casters, const LightCamera& camera,
+                          const LightSpaceScene& scene) {
+    if (!camera.orthographic) return {};
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    glm::dvec3 low(infinity), high(-infinity);
+    for (std::size_t i = 0; i < casters.size(); ++i) {
+        if (!casters[i].casts || std::isnan(scene.boxes[i][0].x)) continue;
+        for (const glm::dvec3& corner : scene.boxes[i]) {
+            const glm::dvec3 posFace = camera.faceFromLight * glm::dvec4(corner, 1);
+            low = glm::min(low, posFace);
+            high = glm::max(high, posFace);
+        }
+    }
+    return {0.5 * std::max(high.x - low.x, high.y - low.y), low.z};
+}
+
 }  // namespace
 
-SmoothieConstants smoothieConstants(const SmoothieSettings& settings, const AreaLight& light,
+SmoothieConstants smoothieConstants(const SmoothieSettings& settings, const ShadowInputs& inputs,
                                     const LightCamera& camera, const LightSpaceScene& scene) {
+    const AreaLight& light = inputs.light;
     const glm::dmat3 faceFromLight(camera.faceFromLight);
     const bool rect = light.shape == LightShape::rect;
     const bool distant = light.shape == LightShape::distant;
     const glm::dvec2 extent = camera.windowMax - camera.windowMin;
     const double window = std::max(extent.x, extent.y);
     const double farthest_m = farthestReceiver_m(camera, scene);
+    const LightFrustum frustum = lightFrustum(inputs.casters, camera, scene);
     // Edges much nearer to the light than to anything they shade: all of the window is in their penumbra
     // anyway.
     const double nearest_m = camera.orthographic ? camera.near_m : 1e-4 * farthest_m;
@@ -39,10 +65,10 @@ SmoothieConstants smoothieConstants(const SmoothieSettings& settings, const Area
         .camera = camera.constants(settings.mapSize_px),
         .halfX = glm::dvec4(faceFromLight[0] * double(rect ? 0.5f * light.width_m : light.radius_m), 0),
         .halfY = glm::dvec4(faceFromLight[1] * double(rect ? 0.5f * light.height_m : light.radius_m), 0),
-        .widths = {distant ? std::tan(0.5 * light.angle_rad) : light.radius_m, 0.5 * settings.t * window,
+        .widths = {distant ? std::tan(0.5 * light.angle_rad) : light.radius_m, settings.t * frustum.half,
                    smallestWidth_texels * window / settings.mapSize_px, window},
         .nearness = {camera.orthographic ? -farthest_m : 1 / farthest_m,
-                     camera.orthographic ? -nearest_m : 1 / nearest_m, 0, 0},
+                     camera.orthographic ? -nearest_m : 1 / nearest_m, -frustum.nearest_m, 0},
         .settings = {int(light.shape), settings.falloff, settings.remap, settings.inner},
     };
 }

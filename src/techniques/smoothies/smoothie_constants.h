@@ -10,13 +10,13 @@ namespace penumbra {
 /// The technique's parameters, as Smoothies::describe names them.
 struct SmoothieSettings {
     int mapSize_px = 1024;
-    float t = 0;  ///< in half window widths; 0: from the light
+    float t = 0;  ///< in half windows of a light frustum that the view does not change; 0: from the light
     bool inner = true;
     bool remap = true;
     int falloff = 0;
 };
 
-SmoothieConstants smoothieConstants(const SmoothieSettings& settings, const AreaLight& light,
+SmoothieConstants smoothieConstants(const SmoothieSettings& settings, const ShadowInputs& inputs,
                                     const LightCamera& camera, const LightSpaceScene& scene);
 
 }  // namespace penumbra

@@ -75,10 +75,12 @@ void Smoothies::describe(ParameterVisitor& visitor) {
                      .help = "smoothies reach into the blocker too, so that the umbra shrinks as the light "
                              "grows; off as in the paper"},
                     settings_.inner);
-    visitor.real({.name = "t",
-                  .help = "width of every smoothie as a share of half the light camera's window (the paper's "
-                          "t, 0.02 to 0.2); 0 derives it from the light's size"},
-                 settings_.t, {0, 1});
+    visitor.real(
+        {.name = "t",
+         .help = "the paper's t (0.02 to 0.2): width of every smoothie in half windows of a light "
+                 "frustum of 90 degrees, or as wide as all that casts for a distant light; 0 derives "
+                 "it from the light's size"},
+        settings_.t, {0, 1});
     visitor.boolean({.name = "remap",
                      .help = "alpha follows the distances of blocker and receiver (equation 1); off: the "
                              "same width everywhere"},
@@ -229,12 +231,12 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
     const LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = settings_.mapSize_px});
-    hasSmoothies_ = hasSize(light) && !cameras.empty();
+    hasSmoothies_ = (hasSize(light) || settings_.t > 0) && !cameras.empty();
     drawMaps(inputs, scene, cameras);
 
     std::array<SmoothieConstants, maxSmoothieCameras> constants{};
     for (std::size_t i = 0; i < cameras.size(); ++i)
-        constants[i] = smoothieConstants(settings_, light, cameras[i], scene);
+        constants[i] = smoothieConstants(settings_, inputs, cameras[i], scene);
     constants_.write(std::as_bytes(std::span(constants)));
     bindConstants(0);
     if (hasSmoothies_) {
@@ -305,7 +307,7 @@ void Smoothies::resolveMasked(const ShadowInputs& inputs, const LightSpaceScene&
     // The search for blockers is as wide as the nearest of them could make a penumbra.
     float nearestNearness = -std::numeric_limits<float>::infinity();
     for (const LightCamera& camera : cameras) {
-        const float nearest = smoothieConstants(settings_, inputs.light, camera, scene).nearness.y;
+        const float nearest = smoothieConstants(settings_, inputs, camera, scene).nearness.y;
         for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
             if (!isMasked(inputs.casters[i]) || std::isnan(scene.boxes[i][0].x)) continue;
             for (const glm::dvec3& corner : scene.boxes[i]) {

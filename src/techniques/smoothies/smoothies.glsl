@@ -73,8 +73,8 @@ float smoothieWidth(int camera, float half_m, float blocker, float receiver) {
     SmoothieConstants c = smoothies[camera];
     bool remap = c.settings.z == 1;
     if (c.widths.y > 0.0) {
-        // The paper's t. Orthographic cameras measure b and r from the nearest point, having no light to start from.
-        float whole = isOrthographic(camera) ? c.nearness.y - receiver : blocker;
+        // The paper's t. Orthographic cameras measure b and r from the nearest caster, having no light to start from.
+        float whole = isOrthographic(camera) ? c.nearness.z - receiver : blocker;
         return remap ? max(c.widths.y * (blocker - receiver) / max(whole, 1e-30), c.widths.z) : c.widths.y;
     }
     return clamp(half_m * (blocker - (remap ? receiver : c.nearness.x)), c.widths.z, c.widths.w);

@@ -21,11 +21,12 @@ const int profileOffsets = 64;
 
 struct SmoothieConstants {
     LightCameraConstants camera;
-    vec4 halfX;      // xyz: the light's half axis along its width or radius, in face space, metres
-    vec4 halfY;      // xyz: the same along its height
-    vec4 widths;     // x: radius (sphere, m) or tangent of half the angle (distant); y: fixed width t, 0 for
-                     // none; z: smallest width; w: largest. All but x in window units (tangents or metres)
-    vec4 nearness;   // x: of the farthest receiver; y: of the nearest point that is drawn
+    vec4 halfX;     // xyz: the light's half axis along its width or radius, in face space, metres
+    vec4 halfY;     // xyz: the same along its height
+    vec4 widths;    // x: radius (sphere, m) or tangent of half the angle (distant); y: fixed width t, 0 for
+                    // none; z: smallest width; w: largest. All but x in window units (tangents or metres)
+    vec4 nearness;  // x: of the farthest receiver; y: of the nearest point that is drawn; z: where an
+                    // orthographic camera measures the paper's b and r from
     ivec4 settings;  // x: shape; y: falloff; z: 1 if alpha is remapped; w: 1 with the inner half
     vec4 unused;     // so that a block may begin with any of them
 };

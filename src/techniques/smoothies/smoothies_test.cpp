@@ -81,12 +81,52 @@ TEST_F(SmoothiesTest, AsPublishedTheRampLiesOutsideTheEdge) {
 /// twice the width, since 1 - b/r = 1/2.
 TEST_F(SmoothiesTest, EquationOneScalesAFixedSize) {
     const auto widthOf = [](const char* remap) {
-        const Ramp ramp = rampOf(fromAbove("half-plane"),
-                                 {{"inner", "false"}, {"t", "0.5"}, {"remap", remap}, {"falloff", "linear"}});
+        const Ramp ramp =
+            rampOf(fromAbove("half-plane"),
+                   {{"inner", "false"}, {"t", "0.25"}, {"remap", remap}, {"falloff", "linear"}});
         return double(std::ranges::count_if(ramp.v, [](double v) { return v > 0.02 && v < 0.98; }));
     };
     EXPECT_GT(widthOf("true"), 10);
     EXPECT_NEAR(widthOf("false") / widthOf("true"), 2, 0.15);
+}
+
+/// A distance t at 1 m from the light, times r - b: 2 m.
+TEST_F(SmoothiesTest, TIsOfALightFrustumThatTheViewDoesNotChange) {
+    constexpr float t = 0.1f;
+    for (const float zoom : {0.5f, 1.0f, 4.0f}) {
+        Scene scene = withMoment(fromAbove("half-plane"), [&](SceneMoment& moment) {
+            *moment.cameras.front().orthographicHeight_m /= zoom;
+        });
+        Ramp ramp = rampOf(scene, {{"inner", "false"}, {"t", "0.1"}, {"falloff", "linear"}});
+        for (double& x : ramp.x) x /= zoom;
+        EXPECT_LE(largestError(ramp, [](double x) { return std::clamp(x / (2 * t), 0.0, 1.0); }), 0.06)
+            << zoom;
+    }
+}
+
+/// The paper's lights are points.
+TEST_F(SmoothiesTest, TGivesLightsWithoutASizeTheirSmoothies) {
+    for (const LightShape shape :
+         {LightShape::rect, LightShape::disk, LightShape::sphere, LightShape::distant}) {
+        const auto sized = [&](float scale) {
+            return withLight(fromAbove("half-plane"), [&](Light& light) {
+                shrinkToPoint(light);
+                light.shape.shape = shape;
+                light.shape.width_m = light.shape.height_m = light.shape.radius_m = light.shape.angle_rad =
+                    scale;
+            });
+        };
+        for (const char* falloff : {"light", "linear", "sinusoidal"}) {
+            const Settings settings = {{"inner", "false"}, {"t", "0.1"}, {"falloff", falloff}};
+            const Ramp point = rampOf(sized(0), settings), nearly = rampOf(sized(1e-4f), settings);
+            double largest = 0;
+            for (std::size_t i = 0; i < point.v.size(); ++i)
+                largest = std::max(largest, std::abs(point.v[i] - nearly.v[i]));
+            EXPECT_LE(largest, 0.01) << int(shape) << " " << falloff;
+            EXPECT_GT(std::ranges::count_if(point.v, [](double v) { return v > 0.1 && v < 0.9; }), 3)
+                << int(shape) << " " << falloff;
+        }
+    }
 }
 
 /// t of 0 is the default: widths come from the light. Next to nothing is another thing, a hard shadow whose
