@@ -38,7 +38,9 @@ class SilhouetteExtractor {
     /// more edges or triangles than a dispatch can reach (16 million on the smallest devices).
     void extract(std::span<const SilhouetteSource> sources, const LightPoint& point, DrawShape shape);
 
-    /// Binds the list (SilhouetteEdge, silhouettes_io.h) to storage block `block`.
+    /// The list: of SilhouetteEdge, silhouettes_io.h.
+    const gl::Buffer& edges() const { return silhouettes_; }
+    /// Binds the list to storage block `block`.
     void bindEdges(unsigned block) const;
 
     /// Holds one SilhouetteCommands: for glDrawArraysIndirect at offset 0, for glDispatchComputeIndirect

@@ -8,7 +8,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/smoothies/surfaces.glsl"
 #include "src/techniques/smoothies/smoothie_edges_io.h"
 
-layout(std430, binding = 2) writeonly buffer Tiles { float farthestNearness[]; };
+layout(std430) writeonly buffer Tiles { float farthestNearness[]; };
 
 // A tile an invocation: barriers cost software rasterisers more than the texels do.
 void main() {
@@ -16,7 +16,7 @@ void main() {
     int camera = int(gl_GlobalInvocationID.z);
     ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
     ivec2 begin = tile * size_px / tilesAcross, end = (tile + 1) * size_px / tilesAcross;
-    float nearness = smoothies[camera].nearness.y;
+    float nearness = smoothies[camera].nearestDrawn;
     for (int y = begin.y; y < end.y; y += 4) {
         for (int x = begin.x; x < end.x; x += 4) {
             ivec2 texel = ivec2(x, y);

@@ -6,14 +6,14 @@
 vec3 lightPoint(int i, vec2 place) {
     SmoothieConstants c = smoothies[0];
     vec2 u = fract(vec2(0.7548776662, 0.5698402910) * float(i) + 0.5);
-    if (c.settings.x == shapeRect) return (2.0 * u.x - 1.0) * c.halfX.xyz + (2.0 * u.y - 1.0) * c.halfY.xyz;
+    if (c.light.shape == shapeRect) return (2.0 * u.x - 1.0) * c.halfX + (2.0 * u.y - 1.0) * c.halfY;
     vec2 disk = sqrt(u.x) * vec2(cos(6.28318531 * u.y), sin(6.28318531 * u.y));
-    if (c.settings.x == shapeDisk) return disk.x * c.halfX.xyz + disk.y * c.halfY.xyz;
-    if (c.settings.x == shapeDistant) return vec3(c.widths.x * disk, 0.0);
+    if (c.light.shape == shapeDisk) return disk.x * c.halfX + disk.y * c.halfY;
+    if (c.light.shape == shapeDistant) return vec3(c.radius * disk, 0.0);
     // The disk that a sphere shows.
     vec3 x = normalize(vec3(1.0, 0.0, -place.x));
     vec3 y = normalize(cross(vec3(place, 1.0), x));
-    return c.widths.x * (disk.x * x + disk.y * y);
+    return c.radius * (disk.x * x + disk.y * y);
 }
 
 struct Glance {

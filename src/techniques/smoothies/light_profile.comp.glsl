@@ -6,8 +6,8 @@ layout(local_size_x = 64) in;
 
 #include "src/techniques/smoothies/smoothies_io.h"
 
-layout(binding = 5) uniform sampler2D radiance;
-layout(binding = 1, rgba32f) uniform writeonly image2D profile;
+uniform sampler2D radiance;
+layout(rgba32f) uniform writeonly image2D profile;
 
 const int cellsAcross = 16;  // of the light; the mean radiance of each counts
 const int taps = 8;          // across a cell

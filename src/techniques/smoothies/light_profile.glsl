@@ -3,7 +3,7 @@
 // Includer includes smoothies.glsl.
 #ifdef COLORED
 #define Seen vec3
-layout(binding = 5) uniform sampler2D lightProfile;
+uniform sampler2D lightProfile;
 
 // Where (u, v) in [-1, 1] along the light's axes has dot(along, (u, v)) > -x, |along.x| + |along.y| = 1. Columns of the
 // profile go round the diamond of all such directions, starting at (1, 0); rows are x from -1 to 1.
@@ -21,7 +21,7 @@ Seen partBeside(int camera, LightExtent extent, float x) { return lightVisible(c
 // Visibility at x in [-1, 1] from the penumbra's inner to its outer border; x = 0 is the edge as the centre sees it.
 Seen falloff(int camera, LightExtent extent, float x) {
     x = clamp(x, -1.0, 1.0);
-    int kind = smoothies[camera].settings.y;
+    int kind = smoothies[camera].falloff;
     if (kind == falloffLinear) return Seen(0.5 + 0.5 * x);
     if (kind == falloffSinusoidal) return Seen(clamp(0.5 + 0.5 * sin(1.57079633 * x), 0.0, 1.0));
     return partBeside(camera, extent, x);

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A pixel's receiver as the light cameras see it: step 5 of Chan and Durand 2003, section 3.
 #include "src/techniques/common/view.glsl"
-#define DEPTH_MAP_UNIT 3
-#define DEPTH_MAP_BLOCK 0
 #include "src/techniques/common/depth_map.glsl"
 #include "src/techniques/smoothies/layers.glsl"
 #include "src/techniques/smoothies/smoothies.glsl"
 
-layout(binding = 4) uniform usampler2DArray deepestEdges;
-layout(location = 0) uniform int mapCount;
-layout(location = 1) uniform bool isDistant;
-layout(location = 2) uniform bool isOneSided;
+uniform usampler2DArray deepestEdges;
+layout(std140) uniform Constants { PictureConstants picture; };
 
 // A surface that bends within a texel rises over its plane by a texel's size times the slopes that meet; one texel
 // covers a right angle lit at 45 degrees.
@@ -26,11 +22,11 @@ struct Lookup {
 
 // False: no camera sees the receiver.
 bool findCamera(Receiver receiver, out Lookup l) {
-    for (l.camera = 0; l.camera < mapCount; ++l.camera) {
+    for (l.camera = 0; l.camera < picture.mapCount; ++l.camera) {
         l.point = mapPoint(l.camera, receiver.posLight);
         if (isInWindow(l.camera, l.point)) break;
     }
-    if (l.camera == mapCount) return false;
+    if (l.camera == picture.mapCount) return false;
     l.normalFace = mat3(lightCameras[l.camera].faceFromLight) * receiver.normalLight;
     l.tolerance_m = toleranceTexels * l.point.texel_m + tolerancePrecision * length(l.point.posFace);
     return true;
@@ -87,19 +83,19 @@ struct Horizon {
 
 Horizon horizonOf(Receiver receiver) {
     LightExtent none = LightExtent(0.0, 0.0, vec2(0.0));
-    if (isOneSided && receiver.posLight.z >= 0.0) return Horizon(-1.0, none);
+    if (picture.light.isOneSided && receiver.posLight.z >= 0.0) return Horizon(-1.0, none);
     vec3 normal = receiver.normalLight;
-    float elevation = dot(normal, isDistant ? vec3(0.0, 0.0, 1.0) : -receiver.posLight);
+    float elevation = dot(normal, picture.light.shape == shapeDistant ? vec3(0.0, 0.0, 1.0) : -receiver.posLight);
     SmoothieConstants c = smoothies[0];
     LightExtent extent = none;
-    if (c.settings.x == shapeDistant) {
-        extent.half_m = c.widths.x * sqrt(max(1.0 - elevation * elevation, 0.0));
-    } else if (c.settings.x == shapeSphere) {
-        extent.half_m = c.widths.x;
+    if (c.light.shape == shapeDistant) {
+        extent.half_m = c.radius * sqrt(max(1.0 - elevation * elevation, 0.0));
+    } else if (c.light.shape == shapeSphere) {
+        extent.half_m = c.radius;
     } else {
         vec3 normalFace = mat3(c.camera.faceFromLight) * normal;
-        float x = dot(c.halfX.xyz, normalFace), y = dot(c.halfY.xyz, normalFace);
-        extent = c.settings.x == shapeDisk ? LightExtent(length(vec2(x, y)), 0.0, vec2(0.0)) : rectExtent(x, y);
+        float x = dot(c.halfX, normalFace), y = dot(c.halfY, normalFace);
+        extent = c.light.shape == shapeDisk ? LightExtent(length(vec2(x, y)), 0.0, vec2(0.0)) : rectExtent(x, y);
     }
     bool whole = abs(elevation) >= extent.half_m;  // a light of no size, too
     return Horizon(whole ? (elevation > 0.0 ? 1.0 : -1.0) : elevation / extent.half_m, extent);

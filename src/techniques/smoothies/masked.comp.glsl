@@ -10,11 +10,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/smoothies/light_points.glsl"
 
 #ifdef COLORED
-layout(binding = 0, rgba16f) uniform image2D visibility;
+layout(rgba16f) uniform image2D visibility;
 #else
-layout(binding = 0, r32f) uniform image2D visibility;
+layout(r32f) uniform image2D visibility;
 #endif
-layout(location = 3) uniform float nearestNearness;  // of all blockers that have holes
 
 const int taps = 48;
 
@@ -22,10 +21,10 @@ float visibilityAt(Receiver pixel) {
     Lookup l;
     if (!findCamera(pixel, l)) return 1.0;
     float receiver = nearnessOf(l.camera, l.point.posFace.z);
-    if (receiver >= nearestNearness) return 1.0;
+    if (receiver >= picture.nearestNearness) return 1.0;
     float sum = 0.0, count = 0.0;
     for (int i = 0; i < taps; ++i) {
-        Glance glance = glanceAt(l, i, nearestNearness);
+        Glance glance = glanceAt(l, i, picture.nearestNearness);
         if (glance.isHidden) sum += glance.nearness;
         if (glance.isHidden) count += 1.0;
     }
@@ -40,7 +39,7 @@ float visibilityAt(Receiver pixel) {
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
+    if (any(greaterThanEqual(pixel, view.size_px))) return;
     Receiver receiver;
     if (!loadReceiver(pixel, receiver)) return;
     imageStore(visibility, pixel, min(imageLoad(visibility, pixel), visibilityAt(receiver)));

@@ -3,8 +3,7 @@
 // falloff of Chan and Durand 2003. Includer includes lookup.glsl and light_profile.glsl.
 #include "src/techniques/smoothies/smoothie_edges_io.h"
 
-layout(std430, binding = 2) readonly buffer SmoothieEdges { SmoothieEdge smoothieEdges[]; };
-layout(location = 3) uniform uint capacity;  // edges for each camera
+layout(std430) readonly buffer SmoothieEdges { SmoothieEdge smoothieEdges[]; };
 
 struct PastEdge {
     Seen seen;       // the part of the light: all of it where there is no outer edge, nothing where no inner one
@@ -19,7 +18,7 @@ bool isEdge(PastEdge past) { return past.outward != vec2(0.0); }
 PastEdge pastEdge(Lookup l, uint number, int layer) {
     bool inner = layer != layerOuter;
     PastEdge nothing = pastNone(layer);
-    SmoothieEdge edge = smoothieEdges[uint(l.camera) * capacity + number];
+    SmoothieEdge edge = smoothieEdges[uint(l.camera) * picture.capacity + number];
 
     vec2 place = placeOf(l.camera, l.point.uv);
     vec2 along = edge.ends.zw - edge.ends.xy;
@@ -51,7 +50,7 @@ PastEdge pastEdge(Lookup l, uint number, int layer) {
     float x = towards * distance_ / width;
     if (x <= -1.0) return PastEdge(Seen(0.0), outward, blocker);
     // With the inner half, the outer one spans the outer half of the penumbra; alone, it stands for all of it.
-    if (smoothies[l.camera].settings.w == 0) return PastEdge(falloff(l.camera, extent, 2.0 * max(x, 0.0) - 1.0), outward, blocker);
+    if (!smoothies[l.camera].hasInnerHalf) return PastEdge(falloff(l.camera, extent, 2.0 * max(x, 0.0) - 1.0), outward, blocker);
     if (inner) {
         // The receiver's plane must be lit just beyond the edge, or else something under the blocker covers it too.
         ivec2 beyond = texelOf(l.camera, closest + beyondTexels * windowTexel * outward, textureSize(depthMaps, 0).x);

@@ -12,7 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #endif
 #include "src/techniques/smoothies/tiles.glsl"
 
-layout(binding = 0) uniform writeonly image2D visibility;
+uniform writeonly image2D visibility;
 
 // A sliver of a light above the horizon is taken for none: the quotient of two such parts is all noise.
 const float leastPart = 0.004;
@@ -25,7 +25,7 @@ Seen visibilityAt(Receiver receiver, bool isWhole) {
     PastEdge past[layersPerCamera];
     past[layerOuter] = pastEdgeNear(l, n.litTexel, layerOuter);
     PastEdge near = past[layerOuter];
-    if (smoothies[l.camera].settings.w == 0) return (1.0 - n.behind) * near.seen;
+    if (!smoothies[l.camera].hasInnerHalf) return (1.0 - n.behind) * near.seen;
 
     // What a receiver sees that does not see the light's centre; and one that does, past the far side of a thin blocker.
     ivec2 innerTexel = n.behind > 0.0 ? n.behindTexel : n.litTexel;
@@ -42,7 +42,7 @@ Seen visibilityAt(Receiver receiver, bool isWhole) {
     Seen seen = mix(min(near.seen + opposite, 1.0), clamp(behind, most, Seen(1.0)), n.behind);
 #ifndef COLORED
     SmoothieConstants c = smoothies[l.camera];
-    bool isOfLight = c.settings.y == falloffLight && c.settings.z == 1 && c.widths.y == 0.0;
+    bool isOfLight = c.falloff == falloffLight && c.isRemapped && c.fixedWidth == 0.0;
     if (isWhole && isOfLight) seen = checkedByMap(l, n, past, seen);
 #endif
     return seen;
@@ -52,7 +52,7 @@ void main() {
     uint index = gl_WorkGroupID.y * uint(tilesPerRow) + gl_WorkGroupID.x;
     if (index >= tileCount) return;
     ivec2 pixel = tileSize_px * ivec2(tiles[index] & 0xffffu, tiles[index] >> 16) + ivec2(gl_LocalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
+    if (any(greaterThanEqual(pixel, view.size_px))) return;
     Receiver receiver;
     Seen seen = Seen(1.0);
     if (loadReceiver(pixel, receiver)) {

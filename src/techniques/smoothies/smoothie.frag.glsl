@@ -8,7 +8,6 @@
 #include "src/techniques/smoothies/smoothies.glsl"
 #include "src/techniques/smoothies/surfaces.glsl"
 
-layout(location = 1) uniform int drawnCamera;
 const int camera = 0;  // the block begins with the one that is drawn, since constant indices are read once for all
 
 layout(location = 0) flat in uint edgeNumber;
@@ -33,9 +32,9 @@ void main() {
     // A blocker that hides the edge here (or, of the inner half, just beyond the edge) hides its penumbra.
     vec2 beyond = closest + max(inner ? 0.0 : distance_, beyondTexels * texel) * normal;
     ivec2 surface = texelOf(camera, beyond, textureSize(depthMaps, 0).x);
-    float receiver = blockerNearness(camera, drawnCamera, surface);
+    float receiver = blockerNearness(camera, construction.drawnCamera, surface);
     if (receiver >= blocker) discard;
-    float other = receiverNearness(camera, drawnCamera, surface);
+    float other = receiverNearness(camera, construction.drawnCamera, surface);
     if (other < blocker) receiver = max(receiver, other);
 
     // Across the edge (smoothie.geom.glsl, overlapTexels) it is better than none, no more, and the closest is the

@@ -9,7 +9,7 @@
 layout(points) in;
 layout(triangle_strip, max_vertices = 28) out;
 
-layout(location = 1) uniform int drawnCamera;
+layout(std140) uniform Constants { ConstructionConstants construction; };
 const int camera = 0;  // the block begins with the one that is drawn
 
 layout(location = 0) flat in vec4 edgeEnds[1];
@@ -45,7 +45,7 @@ void emit(End end, vec2 offset, vec2 normal, int layer) {
     closest = end.place;
     blocker = end.nearness;
     place = end.place + offset;
-    gl_Layer = layersPerCamera * drawnCamera + layer;
+    gl_Layer = layersPerCamera * construction.drawnCamera + layer;
     gl_Position = vec4(2.0 * (place - window.xy) * window.zw - 1.0, 0.5, 1.0);
     EmitVertex();
 }
@@ -71,7 +71,7 @@ void main() {
     vec2 along = normalize(ends.zw - ends.xy);
     vec2 normal = vec2(along.y, -along.x);
     float overlap = overlapTexels * smoothies[camera].camera.depth.w;
-    int halves = smoothies[camera].settings.w == 1 ? 2 : 1;
+    int halves = smoothies[camera].hasInnerHalf ? 2 : 1;
     for (int i = 0; i < halves; ++i) {
         int layer = i == 0 ? layerOuter : innerLayer(normal);
         float towards = i == 0 ? 1.0 : -1.0;

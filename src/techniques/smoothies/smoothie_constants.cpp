@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "src/techniques/common/light_constants.h"
+
 namespace penumbra {
 namespace {
 
@@ -63,13 +65,19 @@ SmoothieConstants smoothieConstants(const SmoothieSettings& settings, const Shad
     const double nearest_m = camera.orthographic ? camera.near_m : 1e-4 * farthest_m;
     return {
         .camera = camera.constants(settings.mapSize_px),
-        .halfX = glm::dvec4(faceFromLight[0] * double(rect ? 0.5f * light.width_m : light.radius_m), 0),
-        .halfY = glm::dvec4(faceFromLight[1] * double(rect ? 0.5f * light.height_m : light.radius_m), 0),
-        .widths = {distant ? std::tan(0.5 * light.angle_rad) : light.radius_m, settings.t * frustum.half,
-                   smallestWidth_texels * window / settings.mapSize_px, window},
-        .nearness = {camera.orthographic ? -farthest_m : 1 / farthest_m,
-                     camera.orthographic ? -nearest_m : 1 / nearest_m, -frustum.nearest_m, 0},
-        .settings = {int(light.shape), settings.falloff, settings.remap, settings.inner},
+        .light = lightConstants(light),
+        .halfX = faceFromLight[0] * double(rect ? 0.5f * light.width_m : light.radius_m),
+        .radius = distant ? float(std::tan(0.5 * light.angle_rad)) : light.radius_m,
+        .halfY = faceFromLight[1] * double(rect ? 0.5f * light.height_m : light.radius_m),
+        .fixedWidth = float(settings.t * frustum.half),
+        .smallestWidth = float(smallestWidth_texels * window / settings.mapSize_px),
+        .largestWidth = float(window),
+        .farthestReceiver = float(camera.orthographic ? -farthest_m : 1 / farthest_m),
+        .nearestDrawn = float(camera.orthographic ? -nearest_m : 1 / nearest_m),
+        .fixedFrom = float(-frustum.nearest_m),
+        .falloff = settings.falloff,
+        .isRemapped = settings.remap,
+        .hasInnerHalf = settings.inner,
     };
 }
 

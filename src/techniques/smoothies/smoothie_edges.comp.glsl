@@ -8,14 +8,13 @@ layout(local_size_x = 64) in;
 #include "src/geometry/silhouettes_io.h"
 #include "src/techniques/smoothies/smoothie_edges_io.h"
 
-layout(std430, binding = 2) readonly buffer Tiles { float farthestNearness[]; };
-layout(std430, binding = 3) readonly buffer Silhouettes { SilhouetteEdge silhouettes[]; };
-layout(std430, binding = 4) readonly buffer Commands { SilhouetteCommands commands; };
-layout(std430, binding = 5) readonly buffer VertexNormals { ivec4 vertexNormals[]; };
-layout(std430, binding = 6) writeonly buffer SmoothieEdges { SmoothieEdge smoothieEdges[]; };
+layout(std430) readonly buffer Tiles { float farthestNearness[]; };
+layout(std430) readonly buffer Silhouettes { SilhouetteEdge silhouettes[]; };
+layout(std430) readonly buffer Commands { SilhouetteCommands commands; };
+layout(std430) readonly buffer VertexNormals { ivec4 vertexNormals[]; };
+layout(std430) writeonly buffer SmoothieEdges { SmoothieEdge smoothieEdges[]; };
 
-layout(location = 0) uniform int cameraCount;
-layout(location = 1) uniform uint capacity;  // edges for each camera
+layout(std140) uniform Constants { ConstructionConstants construction; };
 
 // Moves the segment's ends to where f, linear between its values at both ends, becomes positive. False: nowhere.
 bool clip(inout vec2 segment, float fa, float fb) {
@@ -41,7 +40,7 @@ vec2 largestWidths(int camera, vec2 placeA, vec2 placeB, vec2 blocker, float rec
         vec2(smoothieWidth(camera, largest, blocker.x, receiver), smoothieWidth(camera, largest, blocker.y, receiver));
     // Widths are linear in nearness, which is linear along the edge, unless they are the paper's t or cut off.
     float widest = max(widths.x, widths.y);
-    bool linear = smoothies[camera].widths.y == 0.0 && widest < smoothies[camera].widths.w;
+    bool linear = smoothies[camera].fixedWidth == 0.0 && widest < smoothies[camera].largestWidth;
     return linear ? widths : vec2(widest);
 }
 
@@ -54,7 +53,7 @@ vec2 boundByReceivers(int camera, vec2 placeA, vec2 placeB, vec2 nearness, vec2 
         ivec2 first = texelOf(camera, low, tilesAcross), last = texelOf(camera, high, tilesAcross);
         ivec2 count = last - first + 1;
         if (count.x * count.y > 256) return widths;
-        float farthest = smoothies[camera].nearness.y;
+        float farthest = smoothies[camera].nearestDrawn;
         for (int y = first.y; y <= last.y; ++y) {
             for (int x = first.x; x <= last.x; ++x) {
                 farthest = min(farthest, farthestNearness[(camera * tilesAcross + y) * tilesAcross + x]);
@@ -106,8 +105,8 @@ SmoothieEdge build(int camera, uint index) {
     vec3 b = (c.camera.faceFromLight * vec4(leftFirst ? silhouette.bLight : silhouette.aLight, 1.0)).xyz;
 
     // Only what lies before the farthest receiver and in front of the camera has a place.
-    float farthest = c.nearness.x;
-    float nearest_m = isOrthographic(camera) ? -c.nearness.y : 1.0 / c.nearness.y;
+    float farthest = c.farthestReceiver;
+    float nearest_m = isOrthographic(camera) ? -c.nearestDrawn : 1.0 / c.nearestDrawn;
     vec2 segment = vec2(0.0, 1.0);
     if (!clip(segment, a.z - nearest_m, b.z - nearest_m)) return nothing;
     vec3 step3 = b - a;
@@ -117,7 +116,7 @@ SmoothieEdge build(int camera, uint index) {
 
     // The part of the edge whose smoothie reaches into the window.
     vec2 placeA, placeB, nearness, widths;
-    float reach = c.widths.w;
+    float reach = c.largestWidth;
     for (int i = 0; i < 2; ++i) {
         if (!clipToWindow(camera, reach, a, b)) return nothing;
         vec3 ha = homogeneous(camera, a), hb = homogeneous(camera, b);
@@ -141,7 +140,7 @@ SmoothieEdge build(int camera, uint index) {
 void main() {
     uint index = gl_GlobalInvocationID.x;
     if (index >= commands.edgeCount) return;
-    for (int camera = 0; camera < cameraCount; ++camera) {
-        smoothieEdges[uint(camera) * capacity + index] = build(camera, index);
+    for (int camera = 0; camera < construction.cameraCount; ++camera) {
+        smoothieEdges[uint(camera) * construction.capacity + index] = build(camera, index);
     }
 }

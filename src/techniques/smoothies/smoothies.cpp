@@ -7,9 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include "src/gl/raster_state.h"
-#include "src/techniques/smoothies/smoothie_edges_io.h"
-
 namespace penumbra {
 namespace {
 
@@ -21,14 +18,6 @@ constexpr int receiverTexel_px = 4;
 /// What the map of casters with holes has more along each axis: edges of holes are known by its texels alone.
 constexpr int maskedMapScale = 2;
 constexpr int largestMap_px = 16384;
-
-void bindStorage(GLuint block, const gl::Buffer& buffer) {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block, buffer.name());
-}
-
-void reserve(gl::Buffer& buffer, std::size_t size_bytes, std::string_view label) {
-    if (buffer.name() == 0 || buffer.size_bytes() < size_bytes) buffer = gl::Buffer(size_bytes, label);
-}
 
 /// Blocks light with holes in it.
 bool isMasked(const Caster& caster) {
@@ -50,20 +39,14 @@ Smoothies::Smoothies(Device& device)
       maskedMap_(device),
       receiverMap_(device),
       silhouettes_(device),
-      farthest_(device_.shaders, {"src/techniques/smoothies/farthest.comp.glsl"}),
-      build_(device_.shaders, {"src/techniques/smoothies/smoothie_edges.comp.glsl"}),
-      clearNormals_(device_.shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"}, {"CLEAR"}),
-      addNormals_(device_.shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"}),
-      smoothie_(device_.shaders,
-                {"src/techniques/smoothies/smoothie.vert.glsl", "src/techniques/smoothies/smoothie.geom.glsl",
-                 "src/techniques/smoothies/smoothie.frag.glsl"}),
+      construction_(device),
+      buffer_(device),
       lightProfileProgram_(device_.shaders, {"src/techniques/smoothies/light_profile.comp.glsl"}),
       classify_(device, "classify.comp.glsl", {}),
       resolve_(device, "resolve.comp.glsl", {}),
       resolveColored_(device, "resolve.comp.glsl", {"COLORED"}),
       masked_(device, "masked.comp.glsl", {}),
       maskedColored_(device, "masked.comp.glsl", {"COLORED"}),
-      edgesAsVertices_(gl::makeFloatVertexArray(4, 4, 4)),
       constants_(std::size_t(2) * maxSmoothieCameras * sizeof(SmoothieConstants), "smoothie constants") {}
 
 void Smoothies::describe(ParameterVisitor& visitor) {
@@ -89,101 +72,6 @@ void Smoothies::describe(ParameterVisitor& visitor) {
                     .help = "how visibility grows across a smoothie: as the light's shape asks for, "
                             "linearly, or sinusoidally"},
                    settings_.falloff, falloffs);
-}
-
-void Smoothies::allocate(int layers) {
-    const int size_px = std::max(1, settings_.mapSize_px / smoothieTexel_px);
-    if (deepest_.width_px() == size_px && deepest_.layers() >= layers) return;
-    const auto make = [&](gl::Format format, std::string_view label) {
-        return gl::Texture(
-            {.width_px = size_px, .height_px = size_px, .layers = layers, .format = format, .label = label});
-    };
-    deepest_ = {};  // freed first, so that the old need not fit beside the new
-    order_ = {};
-    deepest_ = make(gl::Format::r32ui, "smoothies/deepest edges");
-    order_ = make(gl::Format::depth32f, "smoothies/order");
-    framebuffer_ = gl::Framebuffer({&deepest_}, &order_, "smoothies");
-}
-
-void Smoothies::buildSmoothies(bool distant) {
-    const auto cameras = std::size_t(depthMap_.count());
-    reserve(farthestTiles_, cameras * tilesAcross * tilesAcross * sizeof(float), "smoothies/farthest");
-    reserve(vertexNormals_, silhouettes_.vertexCount() * sizeof(glm::ivec4), "smoothies/vertex normals");
-    reserve(smoothieEdges_, cameras * silhouettes_.edgeCount() * sizeof(SmoothieEdge), "smoothies/edges");
-    const auto dispatchEdges = [&] {
-        gl::dispatchIndirect(silhouettes_.commands(), SilhouetteExtractor::dispatchOffset);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    };
-
-    // The normals of the silhouette's vertices.
-    silhouettes_.bindEdges(0);
-    bindStorage(1, silhouettes_.commands());
-    bindStorage(2, vertexNormals_);
-    clearNormals_.use();
-    dispatchEdges();
-    addNormals_.use();
-    glUniform1i(0, distant);
-    dispatchEdges();
-
-    // How far away receivers are.
-    bindSurfaces();
-    bindStorage(2, farthestTiles_);
-    farthest_.use();
-    glUniform1i(0, hasReceiverMap_);
-    constexpr GLuint groups = tilesAcross / 8;
-    glDispatchCompute(groups, groups, GLuint(cameras));
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-
-    // The smoothies.
-    silhouettes_.bindEdges(3);
-    bindStorage(4, silhouettes_.commands());
-    bindStorage(5, vertexNormals_);
-    bindStorage(6, smoothieEdges_);
-    build_.use();
-    glUniform1i(0, GLint(cameras));
-    glUniform1ui(1, GLuint(silhouettes_.edgeCount()));
-    dispatchEdges();
-    glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
-}
-
-void Smoothies::bindConstants(int firstCamera) const {
-    glBindBufferRange(GL_UNIFORM_BUFFER, 1, constants_.name(),
-                      GLintptr(std::size_t(firstCamera) * sizeof(SmoothieConstants)),
-                      GLsizeiptr(maxSmoothieCameras * sizeof(SmoothieConstants)));
-}
-
-void Smoothies::bindSurfaces() const {
-    depthMap_.texture().bind(0);
-    if (hasReceiverMap_) receiverMap_.texture().bind(1);
-}
-
-void Smoothies::drawSmoothies() {
-    constexpr std::array<GLuint, 4> noEdge = {0xffffffffu};
-    constexpr float farthest = 1;
-    gl::beginPass(framebuffer_.name(), {.width_px = deepest_.width_px(),
-                                        .height_px = deepest_.height_px(),
-                                        .depthTest = gl::Compare::less,
-                                        .depthWrite = true});
-    smoothie_.use();
-    glBindVertexArray(edgesAsVertices_.name());
-    bindSurfaces();
-    glUniform1i(0, hasReceiverMap_);
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, silhouettes_.commands().name());
-    glClearNamedFramebufferuiv(framebuffer_.name(), GL_COLOR, 0, noEdge.data());
-    glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &farthest);
-    for (int camera = 0; camera < depthMap_.count(); ++camera) {
-        const std::size_t first = std::size_t(camera) * silhouettes_.edgeCount();
-        for (GLuint attribute = 0; attribute < 3; ++attribute) {
-            glEnableVertexArrayAttrib(edgesAsVertices_.name(), attribute);
-            glVertexArrayVertexBuffer(edgesAsVertices_.name(), attribute, smoothieEdges_.name(),
-                                      GLintptr(first * sizeof(SmoothieEdge) + attribute * sizeof(glm::vec4)),
-                                      sizeof(SmoothieEdge));
-        }
-        glUniform1i(1, camera);
-        bindConstants(camera);
-        glDrawArraysIndirect(GL_POINTS, nullptr);
-    }
-    bindConstants(0);
 }
 
 void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene,
@@ -227,7 +115,6 @@ void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scen
 void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     checkInputs(inputs, out);
     const AreaLight& light = inputs.light;
-    const bool distant = light.shape == LightShape::distant;
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
     const LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = settings_.mapSize_px});
@@ -238,119 +125,125 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     for (std::size_t i = 0; i < cameras.size(); ++i)
         constants[i] = smoothieConstants(settings_, inputs, cameras[i], scene);
     constants_.write(std::as_bytes(std::span(constants)));
-    bindConstants(0);
-    if (hasSmoothies_) {
-        allocate(layersPerCamera * int(cameras.size()));
-        {
-            const auto pass = timers_.pass("smoothies/silhouettes");
-            std::pmr::vector<SilhouetteSource> sources{gl::LedgerScope::frameMemory()};
-            for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
-                const Caster& caster = inputs.casters[i];
-                if (caster.casts && !isMasked(caster))
-                    sources.push_back({caster.mesh, scene.lightFromMesh[i]});
-            }
-            silhouettes_.extract(sources, distant ? LightPoint(0, 0, 1, 0) : LightPoint(0, 0, 0, 1), {});
-        }
-        {
-            const auto pass = timers_.pass("smoothies/construction");
-            buildSmoothies(distant);
-        }
-        {
-            const auto pass = timers_.pass("smoothies/smoothies");
-            drawSmoothies();
-        }
-        if (light.radianceTexture != 0) profileLight(light.radianceTexture);
-    }
-    view_.bind(inputs.view, lightFromWorldMatrix);
+    if (hasSmoothies_) drawSmoothies(inputs, scene);
+    view_.fill(inputs.view, lightFromWorldMatrix);
     resolve(inputs, out);
     if (hasMaskedMap_) resolveMasked(inputs, scene, cameras, out);
 }
 
-void Smoothies::useForPicture(const PicturePrograms& programs, const ShadowInputs& inputs) const {
-    (inputs.view.normalTexture != 0 ? programs.withNormals : programs.withoutNormals).use();
-    glUniform1i(0, depthMap_.count());
-    glUniform1i(1, inputs.light.shape == LightShape::distant);
-    glUniform1i(2, isOneSided(inputs.light));
+void Smoothies::drawSmoothies(const ShadowInputs& inputs, const LightSpaceScene& scene) {
+    const bool isDistant = inputs.light.shape == LightShape::distant;
+    const SurfaceMaps surfaces{
+        .casters = depthMap_, .receivers = receiverMap_, .hasReceivers = hasReceiverMap_};
+    {
+        const auto pass = timers_.pass("smoothies/silhouettes");
+        std::pmr::vector<SilhouetteSource> sources{gl::LedgerScope::frameMemory()};
+        for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
+            const Caster& caster = inputs.casters[i];
+            if (caster.casts && !isMasked(caster)) sources.push_back({caster.mesh, scene.lightFromMesh[i]});
+        }
+        silhouettes_.extract(sources, isDistant ? LightPoint(0, 0, 1, 0) : LightPoint(0, 0, 0, 1), {});
+    }
+    {
+        const auto pass = timers_.pass("smoothies/construction");
+        construction_.build(silhouettes_, surfaces, constants_, isDistant);
+    }
+    {
+        const auto pass = timers_.pass("smoothies/smoothies");
+        buffer_.draw(silhouettes_, construction_.edges(), surfaces, constants_);
+    }
+    if (inputs.light.radianceTexture != 0) profileLight(inputs.light.radianceTexture);
+}
+
+PictureConstants Smoothies::pictureConstants(const ShadowInputs& inputs) const {
+    return {.light = lightConstants(inputs.light),
+            .mapCount = depthMap_.count(),
+            .hasSmoothies = hasSmoothies_,
+            .capacity = glm::uint(silhouettes_.edgeCount())};
 }
 
 void Smoothies::resolve(const ShadowInputs& inputs, const VisibilityBuffer& out) {
     const auto tilesOf = [](int size_px) { return std::size_t((size_px + tileSize_px - 1) / tileSize_px); };
-    reserve(tiles_, 4 * (4 + 2 * tilesOf(out.width_px()) * tilesOf(out.height_px())), "smoothies/tiles");
-    constexpr GLuint none = 0;
-    glClearNamedBufferData(tiles_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
-    constexpr std::array<GLuint, 4> noTiles = {0, 0, 1, 0};
+    // The list's head is an indirect dispatch's, and the number of tiles.
+    constexpr std::array<std::uint32_t, 4> noTiles = {0, 0, 1, 0};
+    tiles_.reserve(
+        sizeof(std::uint32_t) * (noTiles.size() + 2 * tilesOf(out.width_px()) * tilesOf(out.height_px())),
+        "smoothies/tiles");
+    tiles_.clear();
     tiles_.write(std::as_bytes(std::span(noTiles)));
-    bindStorage(3, tiles_);
-    depthMap_.bind(3, 0);
-    deepest_.bind(4);
-    bindVisibility(out, 0);
     {
         const auto pass = timers_.pass("smoothies/classify");
-        useForPicture(classify_, inputs);
-        glUniform1i(3, hasSmoothies_);
-        gl::dispatchPixels(out.width_px(), out.height_px());
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
-                        GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+        gl::Pass(classify_.of(inputs.view))
+            .constants(pictureConstants(inputs))
+            .bind(view_)
+            .bind(depthMap_)
+            .bind("SmoothieBlock", constants_, 0, maxSmoothieCameras * sizeof(SmoothieConstants))
+            .bind("deepestEdges", buffer_.deepestEdges())
+            .bind("Tiles", tiles_)
+            .bind("visibility", imageOf(out))
+            .dispatchPixels(out.width_px(), out.height_px());
     }
     if (!hasSmoothies_) return;
     const auto pass = timers_.pass("smoothies/resolve");
-    useForPicture(out.colored() ? resolveColored_ : resolve_, inputs);
-    if (out.colored()) lightProfile_.bind(5);
-    glUniform1ui(3, GLuint(silhouettes_.edgeCount()));
-    bindStorage(2, smoothieEdges_);
-    gl::dispatchIndirect(tiles_);
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    gl::Pass resolving((out.colored() ? resolveColored_ : resolve_).of(inputs.view));
+    resolving.constants(pictureConstants(inputs))
+        .bind(view_)
+        .bind(depthMap_)
+        .bind("SmoothieBlock", constants_, 0, maxSmoothieCameras * sizeof(SmoothieConstants))
+        .bind("deepestEdges", buffer_.deepestEdges())
+        .bind("SmoothieEdges", construction_.edges())
+        .bind("Tiles", tiles_)
+        .bind("visibility", imageOf(out));
+    if (out.colored()) resolving.bind("lightProfile", lightProfile_);
+    resolving.dispatchIndirect(tiles_);
 }
 
 void Smoothies::resolveMasked(const ShadowInputs& inputs, const LightSpaceScene& scene,
                               const LightCameras& cameras, const VisibilityBuffer& out) {
     // The search for blockers is as wide as the nearest of them could make a penumbra.
-    float nearestNearness = -std::numeric_limits<float>::infinity();
+    PictureConstants picture = pictureConstants(inputs);
+    picture.nearestNearness = -std::numeric_limits<float>::infinity();
     for (const LightCamera& camera : cameras) {
-        const float nearest = smoothieConstants(settings_, inputs, camera, scene).nearness.y;
+        const float nearest = smoothieConstants(settings_, inputs, camera, scene).nearestDrawn;
         for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
             if (!isMasked(inputs.casters[i]) || std::isnan(scene.boxes[i][0].x)) continue;
             for (const glm::dvec3& corner : scene.boxes[i]) {
                 const double z = (camera.faceFromLight * glm::dvec4(corner, 1)).z;
                 const double nearness = camera.orthographic ? -z : z > 0 ? 1 / z : nearest;
-                nearestNearness = std::max(nearestNearness, std::min(float(nearness), nearest));
+                picture.nearestNearness =
+                    std::max(picture.nearestNearness, std::min(float(nearness), nearest));
             }
         }
     }
     const auto pass = timers_.pass("smoothies/masked");
-    useForPicture(out.colored() ? maskedColored_ : masked_, inputs);
-    glUniform1f(3, nearestNearness);
-    maskedMap_.bind(3, 0);
-    glBindImageTexture(0, out.texture(), 0, GL_FALSE, 0, GL_READ_WRITE, out.colored() ? GL_RGBA16F : GL_R32F);
-    gl::dispatchPixels(out.width_px(), out.height_px());
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    gl::Pass((out.colored() ? maskedColored_ : masked_).of(inputs.view))
+        .constants(picture)
+        .bind(view_)
+        .bind(maskedMap_)
+        .bind("SmoothieBlock", constants_, 0, maxSmoothieCameras * sizeof(SmoothieConstants))
+        .bind("deepestEdges", buffer_.deepestEdges())
+        .bind("visibility", imageOf(out))
+        .dispatchPixels(out.width_px(), out.height_px());
 }
 
-void Smoothies::profileLight(GLuint radianceTexture) {
+void Smoothies::profileLight(std::uint32_t radianceTexture) {
     const auto pass = timers_.pass("smoothies/light profile");
-    if (lightProfile_.name() == 0) {
-        lightProfile_ = gl::Texture({.width_px = profileDirections + 1,
-                                     .height_px = profileOffsets,
-                                     .format = gl::Format::rgba32f,
-                                     .filter = gl::Filter::linear,
-                                     .label = "smoothies/light profile"});
-    }
-    lightProfileProgram_.use();
-    glBindTextureUnit(5, radianceTexture);
-    lightProfile_.bindImage(1, GL_WRITE_ONLY);
-    glDispatchCompute(profileDirections + 1, 1, 1);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    lightProfile_.fit({.width_px = profileDirections + 1,
+                       .height_px = profileOffsets,
+                       .format = gl::Format::rgba32f,
+                       .filter = gl::Filter::linear,
+                       .label = "smoothies/light profile"});
+    gl::Pass(lightProfileProgram_)
+        .bind("radiance", gl::TextureRef{.name = radianceTexture})
+        .bind("profile", lightProfile_)
+        .dispatch(profileDirections + 1);
 }
 
 void Smoothies::inspect(InspectionVisitor& visitor) const {
     visitor.texture(
         {.name = "depth map", .texture = depthMap_.texture().name(), .layers = depthMap_.count()});
     if (!hasSmoothies_) return;
-    // a / (1 + a) of alpha: half at the penumbra's border. Outer half, then the inner one in three layers.
-    visitor.texture({.name = "alpha of the deepest smoothies, outer and inner halves",
-                     .texture = order_.name(),
-                     .layers = layersPerCamera * depthMap_.count(),
-                     .white = 0.5f});
+    buffer_.inspect(visitor);
 }
 
 Statistics Smoothies::statistics() const {

@@ -13,10 +13,7 @@
 #include "src/techniques/smoothies/smoothies_io.h"
 
 // A uniform block, since storage blocks are read lane by lane on software rasterisers.
-layout(std140, binding = 1) uniform SmoothieBlock { SmoothieConstants smoothies[maxSmoothieCameras]; };
-
-const int shapeRect = 0, shapeDisk = 1, shapeSphere = 2, shapeDistant = 3;
-const int falloffLight = 0, falloffLinear = 1, falloffSinusoidal = 2;
+layout(std140) uniform SmoothieBlock { SmoothieConstants smoothies[maxSmoothieCameras]; };
 
 bool isOrthographic(int camera) { return smoothies[camera].camera.depth.z == 1.0; }
 
@@ -24,7 +21,7 @@ float nearnessOf(int camera, float depth_m) { return isOrthographic(camera) ? -d
 
 // The same for a value in the depth map; where that is empty, of the farthest receiver.
 float storedNearness(int camera, float stored) {
-    if (stored == 0.0) return smoothies[camera].nearness.x;
+    if (stored == 0.0) return smoothies[camera].farthestReceiver;
     vec4 depth = smoothies[camera].camera.depth;
     return depth.z == 1.0 ? stored * (depth.y - depth.x) - depth.y : stored / depth.x;
 }
@@ -57,27 +54,26 @@ LightExtent rectExtent(float x, float y) {
 
 LightExtent lightExtent(int camera, vec2 place, vec2 normal) {
     SmoothieConstants c = smoothies[camera];
-    if (c.settings.x == shapeDistant) return LightExtent(c.widths.x, 0.0, vec2(0.0));
-    if (c.settings.x == shapeSphere) {
+    if (c.light.shape == shapeDistant) return LightExtent(c.radius, 0.0, vec2(0.0));
+    if (c.light.shape == shapeSphere) {
         float along = dot(place, normal);
-        return LightExtent(c.widths.x * sqrt(1.0 + along * along), 0.0, vec2(0.0));
+        return LightExtent(c.radius * sqrt(1.0 + along * along), 0.0, vec2(0.0));
     }
     float x = dot(c.halfX.xy - c.halfX.z * place, normal);
     float y = dot(c.halfY.xy - c.halfY.z * place, normal);
-    if (c.settings.x == shapeDisk) return LightExtent(length(vec2(x, y)), 0.0, vec2(0.0));
+    if (c.light.shape == shapeDisk) return LightExtent(length(vec2(x, y)), 0.0, vec2(0.0));
     return rectExtent(x, y);
 }
 
 // Half the penumbra's width in the window; never less than a texel, below which a map cannot show it.
 float smoothieWidth(int camera, float half_m, float blocker, float receiver) {
     SmoothieConstants c = smoothies[camera];
-    bool remap = c.settings.z == 1;
-    if (c.widths.y > 0.0) {
+    if (c.fixedWidth > 0.0) {
         // The paper's t. Orthographic cameras measure b and r from the nearest caster, having no light to start from.
-        float whole = isOrthographic(camera) ? c.nearness.z - receiver : blocker;
-        return remap ? max(c.widths.y * (blocker - receiver) / max(whole, 1e-30), c.widths.z) : c.widths.y;
+        float whole = isOrthographic(camera) ? c.fixedFrom - receiver : blocker;
+        return c.isRemapped ? max(c.fixedWidth * (blocker - receiver) / max(whole, 1e-30), c.smallestWidth) : c.fixedWidth;
     }
-    return clamp(half_m * (blocker - (remap ? receiver : c.nearness.x)), c.widths.z, c.widths.w);
+    return clamp(half_m * (blocker - (c.isRemapped ? receiver : c.farthestReceiver)), c.smallestWidth, c.largestWidth);
 }
 
 // The part of a rect light on one side of a line at x in [-1, 1]: its projection is two boxes convolved.
@@ -97,5 +93,5 @@ float diskVisible(float x) {
 // The exact part of the light on one side of a line at x in [-1, 1].
 float lightVisible(int camera, float x, float spread) {
     x = clamp(x, -1.0, 1.0);
-    return smoothies[camera].settings.x == shapeRect ? rectVisible(x, spread) : diskVisible(x);
+    return smoothies[camera].light.shape == shapeRect ? rectVisible(x, spread) : diskVisible(x);
 }

@@ -13,10 +13,11 @@
 #include "src/gl/pass_timers.h"
 #include "src/gl/program.h"
 #include "src/gl/texture.h"
-#include "src/gl/vertex_array.h"
 #include "src/techniques/common/depth_map.h"
 #include "src/techniques/common/view_constants.h"
+#include "src/techniques/smoothies/smoothie_buffer.h"
 #include "src/techniques/smoothies/smoothie_constants.h"
+#include "src/techniques/smoothies/smoothie_construction.h"
 
 namespace penumbra {
 
@@ -30,20 +31,20 @@ class Smoothies final : public Technique {
     Statistics statistics() const override;
 
   private:
-    void drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene, const LightCameras& cameras);
-    void allocate(int layers);
-    void buildSmoothies(bool distant);
-    void bindConstants(int firstCamera) const;
-    void bindSurfaces() const;
-    void drawSmoothies();
-    void profileLight(GLuint radianceTexture);
     /// A program of the picture's passes, for receivers with normals of their own or without: software
     /// rasterizers take both sides of a branch.
     struct PicturePrograms {
         PicturePrograms(Device& device, const std::string& file, std::vector<std::string> defines);
         gl::Program withoutNormals, withNormals;
+        const gl::Program& of(const View& view) const {
+            return view.normalTexture != 0 ? withNormals : withoutNormals;
+        }
     };
-    void useForPicture(const PicturePrograms& programs, const ShadowInputs& inputs) const;
+
+    void drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene, const LightCameras& cameras);
+    void drawSmoothies(const ShadowInputs& inputs, const LightSpaceScene& scene);
+    void profileLight(std::uint32_t radianceTexture);
+    PictureConstants pictureConstants(const ShadowInputs& inputs) const;
     void resolve(const ShadowInputs& inputs, const VisibilityBuffer& out);
     void resolveMasked(const ShadowInputs& inputs, const LightSpaceScene& scene, const LightCameras& cameras,
                        const VisibilityBuffer& out);
@@ -55,12 +56,12 @@ class Smoothies final : public Technique {
     bool hasMaskedMap_ = false;
     bool hasReceiverMap_ = false;
     SilhouetteExtractor silhouettes_;
-    gl::Program farthest_, build_, clearNormals_, addNormals_, smoothie_, lightProfileProgram_;
+    SmoothieConstruction construction_;
+    SmoothieBuffer buffer_;
+    gl::Program lightProfileProgram_;
     PicturePrograms classify_, resolve_, resolveColored_, masked_, maskedColored_;
-    gl::Buffer farthestTiles_, vertexNormals_, smoothieEdges_, tiles_;
-    gl::VertexArrayHandle edgesAsVertices_;
-    gl::Texture deepest_, order_, lightProfile_;
-    gl::Framebuffer framebuffer_;
+    gl::Buffer tiles_;
+    gl::Texture lightProfile_;
     gl::Buffer constants_;  ///< of the cameras, and as many again, so that a block may begin with any
     ViewBinding view_;
     gl::PassTimers timers_;

@@ -3,7 +3,7 @@
 // depends on chance; nothing else does.
 #include "src/techniques/smoothies/smoothies_io.h"
 
-layout(std430, binding = 3) buffer Tiles {
+layout(std430) buffer Tiles {
     uint tileColumns;
     uint tileRows;
     uint tileDepth;  // 1

@@ -6,12 +6,15 @@ layout(local_size_x = 64) in;
 
 #include "src/geometry/silhouettes_io.h"
 #include "src/techniques/smoothies/smoothie_edges_io.h"
+#include "src/techniques/smoothies/smoothies_io.h"
 
-layout(std430, binding = 0) readonly buffer Silhouettes { SilhouetteEdge silhouettes[]; };
-layout(std430, binding = 1) readonly buffer Commands { SilhouetteCommands commands; };
-layout(std430, binding = 2) buffer VertexNormals { ivec4 vertexNormals[]; };
+layout(std430) readonly buffer Silhouettes { SilhouetteEdge silhouettes[]; };
+layout(std430) readonly buffer Commands { SilhouetteCommands commands; };
+layout(std430) buffer VertexNormals { ivec4 vertexNormals[]; };
 
-layout(location = 0) uniform bool isDistant;
+#ifndef CLEAR
+layout(std140) uniform Constants { ConstructionConstants construction; };
+#endif
 
 void main() {
     uint edge = gl_GlobalInvocationID.x;
@@ -23,7 +26,7 @@ void main() {
 #else
     // The plane through the light and the edge, its normal on the side where the blocker is not.
     vec3 along = silhouette.bLight - silhouette.aLight;
-    vec3 normal = cross(isDistant ? vec3(0.0, 0.0, -1.0) : silhouette.aLight, along);
+    vec3 normal = cross(construction.isDistant ? vec3(0.0, 0.0, -1.0) : silhouette.aLight, along);
     float size = length(normal);
     if (!(size > 0.0)) return;  // the edge points at the light
     normal *= (silhouette.weight > 0 ? vertexNormalScale : -vertexNormalScale) / size;
