@@ -241,6 +241,42 @@ TEST_F(ShadowWidthTest, WidthsAreMeasuredAtTheReceiverOrOnAPlaneBehindTheBlocker
     }
 }
 
+/// An open mesh has no back faces, or nothing else.
+TEST_F(ShadowWidthTest, OpenBlockersThatOnlyCastHaveShadowsWhicheverWayTheyFace) {
+    for (const bool isTurned : {false, true}) {
+        const Scene scene = withMoment(makeBuiltin("disk-over-ground"), [&](SceneMoment& moment) {
+            moment.cameras.erase(moment.cameras.begin());
+            for (Instance& instance : moment.instances) {
+                instance.receives = !instance.casts;
+                if (instance.casts && isTurned) instance.worldFromMesh[0] *= -1;
+            }
+        });
+        for (const char* mode : {"exact", "compositing", "cpu-sweep"}) {
+            for (const char* backFaces : {"true", "false"}) {
+                const LightResult result =
+                    render("shadow-width", scene, size, {{"mode", mode}, {"back_faces", backFaces}});
+                EXPECT_LE(result.visibility.at(size.width_px / 2, size.height_px / 2, 0), 0.4)
+                    << isTurned << mode << backFaces;
+                EXPECT_EQ(result.visibility.at(2, 2, 0), 1) << isTurned << mode << backFaces;
+            }
+        }
+    }
+}
+
+/// Of a closed one the farthest surfaces are nearer to the receiver, which makes harder edges (figure 6).
+TEST_F(ShadowWidthTest, BackFacesMakeHarderEdges) {
+    const Scene scene = withMoment(makeBuiltin("sphere"), [&](SceneMoment& moment) {
+        for (Instance& instance : moment.instances) instance.receives = !instance.casts;
+    });
+    const auto inPenumbra = [&](const char* backFaces) {
+        const LightResult result =
+            render("shadow-width", scene, size, {{"mode", "compositing"}, {"back_faces", backFaces}});
+        return std::ranges::count_if(result.visibility.values,
+                                     [](float v) { return v > 0.05f && v < 0.95f; });
+    };
+    EXPECT_LT(double(inPenumbra("true")), 0.95 * double(inPenumbra("false")));
+}
+
 TEST_F(ShadowWidthTest, ACurveOfOnesOwnComesFromAFile) {
     const std::filesystem::path file = std::filesystem::temp_directory_path() / "shadow_width.curve";
     const std::unique_ptr<Technique> technique = workbench().makeTechnique("shadow-width");
