@@ -47,12 +47,6 @@ class Setter final : public ParameterVisitor {
         if (found == names.end()) reject("one of " + join(names));
         value = int(found - names.begin());
     }
-    void choiceOrFile(const ParameterInfo& info, std::string& value,
-                      std::span<const std::string_view> names) override {
-        if (!matches(info)) return;
-        if (text_.empty()) reject("one of " + join(names) + ", or a file");
-        value = text_;
-    }
 
     void requireFound() const {
         if (found_) return;
@@ -95,17 +89,6 @@ class Setter final : public ParameterVisitor {
 };
 
 }  // namespace
-
-void ParameterVisitor::choiceOrFile(const ParameterInfo& info, std::string& value,
-                                    std::span<const std::string_view> names) {
-    const std::string before = value;
-    std::vector<std::string_view> all(names.begin(), names.end());
-    auto chosen = std::ranges::find(all, before);
-    if (chosen == all.end()) chosen = all.insert(all.end(), before);
-    int index = int(chosen - all.begin());
-    choice(info, index, all);
-    value = all[std::size_t(index)];
-}
 
 void setParameter(Technique& technique, std::string_view name, std::string_view value) {
     Setter setter(name, value);

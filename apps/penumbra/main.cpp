@@ -90,8 +90,6 @@ int exitCodeOf(penumbra::Error::Kind kind) {
         case penumbra::Error::Kind::badArgument:
         case penumbra::Error::Kind::unknownName:
             return usage;
-        case penumbra::Error::Kind::badFile:
-            return input;
         case penumbra::Error::Kind::noOpenGL:
         case penumbra::Error::Kind::shader:
         case penumbra::Error::Kind::outOfMemory:

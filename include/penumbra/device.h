@@ -23,8 +23,7 @@ class PENUMBRA_API Error : public std::runtime_error {
         noOpenGL,     ///< no current context, or one that lacks what Penumbra needs
         badArgument,  ///< a value outside its documented range
         unknownName,  ///< no technique or parameter of that name
-        badFile,  ///< a parameter's file cannot be read or is not what it must be; the message names its line
-        shader,   ///< a shader does not compile or link; the message names file and line
+        shader,       ///< a shader does not compile or link; the message names file and line
         outOfMemory,  ///< the device has no room for a resource; the message says for what and how large
         lostContext,  ///< the device was given up with Device::abandon
     };

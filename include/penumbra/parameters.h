@@ -35,16 +35,12 @@ class PENUMBRA_API ParameterVisitor {
     virtual void real(const ParameterInfo& info, float& value, Range<float> range) = 0;
     /// One of `names`; `value` is its index.
     virtual void choice(const ParameterInfo& info, int& value, std::span<const std::string_view> names) = 0;
-    /// One of `names`, or the path of a file, which the technique reads at once. A visitor that knows nothing
-    /// of files is shown a choice, with the file among it if there is one.
-    virtual void choiceOrFile(const ParameterInfo& info, std::string& value,
-                              std::span<const std::string_view> names);
 };
 
 class Technique;
 
-/// Sets one parameter from text. Throws Error::Kind::unknownName with the nearest names,
-/// Error::Kind::badArgument with the legal range, or Error::Kind::badFile; the parameter is as it was then.
+/// Sets one parameter from text. Throws Error::Kind::unknownName with the nearest names, or
+/// Error::Kind::badArgument with the legal range.
 PENUMBRA_API void setParameter(Technique& technique, std::string_view name, std::string_view value);
 
 }  // namespace penumbra

@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <locale>
-#include <sstream>
 #include <string>
 
 #include "penumbra/device.h"
@@ -52,43 +49,6 @@ float linearAttenuation(float sd, float sw) {
 float smoothAttenuation(float sd, float sw) {
     const float t = linearAttenuation(sd, sw);
     return t * t * (3 - 2 * t);
-}
-
-AttenuationFunction readAttenuation(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    int line = 0;
-    const auto refuse = [&](const std::string& what) {
-        const std::string place = line == 0 ? "" : std::to_string(line) + ":";
-        throw Error(Error::Kind::badFile,
-                    file.string() + ":" + place + " " + what +
-                        "; a curve has a ratio sw / sd and the value of I on each line");
-    };
-    if (!stream) refuse("is neither the name of a curve nor a file that can be read");
-    struct Knot {
-        float ratio, value;
-    };
-    std::vector<Knot> knots;
-    for (std::string text; std::getline(stream, text);) {
-        ++line;
-        std::istringstream numbers(text.substr(0, text.find('#')));
-        numbers.imbue(std::locale::classic());
-        std::string rest;
-        Knot knot{};
-        if (!(numbers >> std::ws) || numbers.eof()) continue;
-        if (!(numbers >> knot.ratio >> knot.value) || numbers >> rest) refuse("is not two numbers");
-        if (knots.empty() && knot.ratio != 0) refuse("the first ratio is not 0");
-        if (!knots.empty() && !(knot.ratio > knots.back().ratio)) refuse("the ratio is not above the last");
-        knots.push_back(knot);
-    }
-    line = 0;
-    if (stream.bad() || knots.empty()) refuse("has no curve in it");
-    return [knots = std::move(knots)](float sd, float sw) {
-        const float ratio = sd == 0 ? 0 : sw / sd;
-        const auto after = std::ranges::upper_bound(knots, ratio, {}, &Knot::ratio);
-        if (after == knots.end()) return knots.back().value;
-        const Knot &from = *(after - 1), &to = *after;
-        return std::lerp(from.value, to.value, (ratio - from.ratio) / (to.ratio - from.ratio));
-    };
 }
 
 std::vector<float> tabulateAttenuation(const AttenuationFunction& attenuation) {

@@ -3,7 +3,6 @@
 // up.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <span>
 #include <vector>
@@ -21,11 +20,6 @@ constexpr float attenuationTableEnd = 4;
 float linearAttenuation(float sd, float sw);
 /// The same ends with flat tangents, as the penumbra of a round light has them.
 float smoothAttenuation(float sd, float sw);
-
-/// From a text file: on each line a ratio sw / sd and the value of I there, straight lines between them, the
-/// last value beyond. Ratios rise from 0; what follows a `#` is a comment. Throws Error::Kind::badFile that
-/// names file and line.
-AttenuationFunction readAttenuation(const std::filesystem::path& file);
 
 /// I(1, r) for r evenly from 0 to attenuationTableEnd. Throws Error::Kind::badArgument that names the
 /// property of the paper's five that `attenuation` lacks, tried on a grid of depths and widths.

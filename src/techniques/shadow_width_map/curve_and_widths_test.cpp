@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <memory>
 
@@ -58,55 +56,6 @@ TEST(Attenuation, ViolatedPropertyIsNamed) {
                   return std::numeric_limits<float>::quiet_NaN();
               }).find("property 0"),
               std::string::npos);
-}
-
-/// Text in a file that is gone after the test.
-class CurveFile {
-  public:
-    explicit CurveFile(std::string_view text)
-        : path_(std::filesystem::temp_directory_path() /
-                (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".curve")) {
-        std::ofstream(path_) << text;
-    }
-    ~CurveFile() { std::filesystem::remove(path_); }
-    CurveFile(const CurveFile&) = delete;
-    CurveFile& operator=(const CurveFile&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
-
-TEST(Attenuation, FilesHoldCurvesOfStraightLines) {
-    const CurveFile file("# sw/sd  I\n0 1\n\n0.5 0.25  # a kink\n2 0\n");
-    const AttenuationFunction curve = readAttenuation(file.path());
-    EXPECT_EQ(curve(2, 0), 1);
-    EXPECT_EQ(curve(0, 3), 1);
-    EXPECT_FLOAT_EQ(curve(2, 0.5f), 0.625f);
-    EXPECT_FLOAT_EQ(curve(1, 1.25f), 0.125f);
-    EXPECT_EQ(curve(1, 7), 0);
-    EXPECT_EQ(umbraBegins(tabulateAttenuation(curve)), 2);
-}
-
-TEST(Attenuation, FilesThatHoldNoCurveAreRefusedByTheirLine) {
-    const auto complaint = [](std::string_view text) {
-        const CurveFile file(text);
-        try {
-            readAttenuation(file.path());
-        } catch (const Error& error) {
-            EXPECT_EQ(error.kind(), Error::Kind::badFile);
-            return std::string(error.what());
-        }
-        return std::string();
-    };
-    EXPECT_NE(complaint("0 1\n0.5\n").find(".curve:2: is not two numbers"), std::string::npos);
-    EXPECT_NE(complaint("0 1 7\n").find(".curve:1: is not two numbers"), std::string::npos);
-    EXPECT_NE(complaint("0 1\nx 0\n").find(":2:"), std::string::npos);
-    EXPECT_NE(complaint("0.5 1\n").find("the first ratio is not 0"), std::string::npos);
-    EXPECT_NE(complaint("0 1\n1 0.5\n1 0\n").find(":3: the ratio is not above the last"), std::string::npos);
-    EXPECT_NE(complaint("# nothing\n").find("has no curve in it"), std::string::npos);
-    EXPECT_THROW(readAttenuation("/no/such/file"), Error);
-    EXPECT_THROW(readAttenuation(std::filesystem::temp_directory_path()), Error) << "a folder";
 }
 
 // -- Widths

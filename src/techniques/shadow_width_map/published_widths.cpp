@@ -25,12 +25,6 @@ constexpr float startDifference(int choice) {
     return 1.0f / float(4 << (2 * choice));
 }
 
-AttenuationFunction curveNamed(const std::string& name) {
-    if (name == curveNames[0]) return linearAttenuation;
-    if (name == curveNames[1]) return smoothAttenuation;
-    return readAttenuation(name);
-}
-
 }  // namespace
 
 PublishedWidths::PublishedWidths(Device& device)
@@ -47,15 +41,9 @@ void PublishedWidths::describe(ParameterVisitor& visitor) {
         {.name = "c_scale", .help = "published modes, unless physical: c_scale of equation I(sd, sw)"},
         cScale_, {0, std::numeric_limits<float>::max()});
     visitor.real({.name = "c_bias", .help = "published modes: c_bias of equation I(sd, sw)"}, cBias_, {0, 1});
-    std::string curve = curve_;
-    visitor.choiceOrFile({.name = "curve",
-                          .help = "published modes: how I falls from 1 to 0; or a file with sw / sd and I on "
-                                  "each line"},
-                         curve, curveNames);
-    if (curve != curve_) {
-        setAttenuation(curveNamed(curve));
-        curve_ = curve;
-    }
+    const int curve = curve_;
+    visitor.choice({.name = "curve", .help = "published modes: how I falls from 1 to 0"}, curve_, curveNames);
+    if (curve != curve_) setAttenuation(curve_ == 0 ? linearAttenuation : smoothAttenuation);
     visitor.choice(
         {.name = "widths_at",
          .help = "published modes: where a distance in the map is measured, at the receiver, or as "

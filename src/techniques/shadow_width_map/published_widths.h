@@ -4,7 +4,6 @@
 #pragma once
 
 #include <memory_resource>
-#include <string>
 #include <vector>
 
 #include "penumbra/technique.h"
@@ -51,7 +50,7 @@ class PublishedWidths {
     bool physical_ = true;
     float cScale_ = 8;
     float cBias_ = 0;
-    std::string curve_ = "linear";
+    int curve_ = 0;
     int widthsAt_ = 0;
     int neighbours_ = 1;
     int startDifference_ = 3;

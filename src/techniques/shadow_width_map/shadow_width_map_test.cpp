@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <memory>
@@ -275,31 +273,6 @@ TEST_F(ShadowWidthTest, BackFacesMakeHarderEdges) {
                                      [](float v) { return v > 0.05f && v < 0.95f; });
     };
     EXPECT_LT(double(inPenumbra("true")), 0.95 * double(inPenumbra("false")));
-}
-
-TEST_F(ShadowWidthTest, ACurveOfOnesOwnComesFromAFile) {
-    const std::filesystem::path file = std::filesystem::temp_directory_path() / "shadow_width.curve";
-    const std::unique_ptr<Technique> technique = workbench().makeTechnique("shadow-width");
-    setParameter(*technique, "mode", "cpu-sweep");
-    setParameter(*technique, "physical", "false");
-    setParameter(*technique, "c_scale", "2");
-    std::ofstream(file) << "0 1\n0.5 0.8\n1 0\n";
-    setParameter(*technique, "curve", file.string());
-    const LightResult result = render(*technique, straightEdge(), size);
-    for (int x = 0; x < size.width_px; ++x) {
-        const double ratio = depthInShadow_m(x, size.width_px);
-        if (ratio < 0.02 || ratio > 0.98) continue;
-        const double expected = ratio < 0.5 ? 1 - 0.4 * ratio : 1.6 * (1 - ratio);
-        EXPECT_NEAR(result.visibility.at(x, size.height_px / 2, 0), expected, 0.015) << ratio;
-    }
-    std::ofstream(file) << "0 0.9\n1 0\n";
-    EXPECT_THROW(setParameter(*technique, "curve", "linea"), Error);
-    setParameter(*technique, "curve", "smooth");
-    EXPECT_THROW(setParameter(*technique, "curve", file.string()), Error) << "the shadow's border is not lit";
-    const LightResult smooth = render(*technique, straightEdge(), size);
-    EXPECT_NEAR(smooth.visibility.at(size.width_px / 4 - 1, size.height_px / 2, 0), 0, 0.02)
-        << "still the last that was good";
-    std::filesystem::remove(file);
 }
 
 // -- Bad and borderline input
