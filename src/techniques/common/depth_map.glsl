@@ -4,21 +4,17 @@
 
 #ifdef DEPTH_MAP_UNIT
 layout(binding = DEPTH_MAP_UNIT) uniform sampler2DArray depthMaps;
-layout(std430, binding = DEPTH_MAP_BLOCK) readonly buffer LightCameras {
-    LightCameraConstants lightCameras[];
-};
+layout(std430, binding = DEPTH_MAP_BLOCK) readonly buffer LightCameras { LightCameraConstants lightCameras[]; };
 #else
 uniform sampler2DArray depthMaps;
-layout(std430) readonly buffer LightCameras {
-    LightCameraConstants lightCameras[];
-};
+layout(std430) readonly buffer LightCameras { LightCameraConstants lightCameras[]; };
 #endif
 
 // A point as a light camera sees it.
 struct MapPoint {
-    vec3 posFace;   // metres; z along the camera's axis
-    vec2 uv;        // [0, 1] over the window
-    float texel_m;  // a texel's size at the point's depth
+    vec3 posFace;    // metres; z along the camera's axis
+    vec2 uv;         // [0, 1] over the window
+    float texel_m;   // a texel's size at the point's depth
 };
 
 // From a position in the camera's own space.
@@ -41,24 +37,20 @@ bool isInWindow(LightCameraConstants c, MapPoint point) {
     return (c.depth.z == 1.0 || point.posFace.z > 0.0) && all(greaterThanEqual(point.uv, vec2(0.0))) &&
            all(lessThan(point.uv, vec2(1.0)));
 }
-bool isInWindow(int camera, MapPoint point) {
-    return isInWindow(lightCameras[camera], point);
-}
+bool isInWindow(int camera, MapPoint point) { return isInWindow(lightCameras[camera], point); }
 
-// Linear depth along the camera's axis, in metres, from the reversed depth that is stored; no caster is
-// infinitely far.
+// Linear depth along the camera's axis, in metres, from the reversed depth that is stored; no caster is infinitely far.
 float depthFace_m(int camera, float stored) {
     vec4 depth = lightCameras[camera].depth;
     if (stored == 0.0) return uintBitsToFloat(0x7f800000u);
     return depth.z == 1.0 ? depth.y - stored * (depth.y - depth.x) : depth.x / stored;
 }
 
-// Where the plane through the point with the normal is seen in the direction of another place in the map,
-// `uv`. Compared with this depth, a plane never shadows itself, however steeply the light falls on it. The
-// answer is bounded by `before_m` and `behind_m` of the point: the plane has a horizon; and where texels
-// about the point answer for the point itself, nothing behind it can shadow it (behind_m = 0).
-float receiverPlaneDepth_m(int camera, MapPoint point, vec3 normalFace, vec2 uv, float before_m,
-                           float behind_m) {
+// Where the plane through the point with the normal is seen in the direction of another place in the map, `uv`.
+// Compared with this depth, a plane never shadows itself, however steeply the light falls on it. The answer is bounded by
+// `before_m` and `behind_m` of the point: the plane has a horizon; and where texels about the point answer for the point
+// itself, nothing behind it can shadow it (behind_m = 0).
+float receiverPlaneDepth_m(int camera, MapPoint point, vec3 normalFace, vec2 uv, float before_m, float behind_m) {
     LightCameraConstants c = lightCameras[camera];
     vec2 place = uv / c.window.zw + c.window.xy;
     float depth_m;

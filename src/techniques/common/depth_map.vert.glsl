@@ -7,12 +7,8 @@
 #include "src/techniques/common/depth_map_io.h"
 #include "src/techniques/common/light_camera_io.h"
 
-layout(std430) readonly buffer Cameras {
-    LightCameraConstants cameras[];
-};
-layout(std430) readonly buffer Casters {
-    CasterConstants casters[];
-};
+layout(std430) readonly buffer Cameras { LightCameraConstants cameras[]; };
+layout(std430) readonly buffer Casters { CasterConstants casters[]; };
 
 in vec3 posMesh;
 in ivec2 layerAndCaster;  // one an instance
