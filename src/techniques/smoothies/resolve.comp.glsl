@@ -25,7 +25,8 @@ Seen visibilityAt(Receiver receiver, bool isWhole) {
     PastEdge past[layersPerCamera];
     past[layerOuter] = pastEdgeNear(l, n.litTexel, layerOuter);
     PastEdge near = past[layerOuter];
-    if (!smoothies[l.camera].hasInnerHalf) return (1.0 - n.behind) * near.seen;
+    // As in the paper's code: with a blocker among the four texels it is umbra, and no silhouette has pinholes.
+    if (!smoothies[l.camera].hasInnerHalf) return n.behind > 0.0 ? Seen(0.0) : near.seen;
 
     // What a receiver sees that does not see the light's centre; and one that does, past the far side of a thin blocker.
     ivec2 innerTexel = n.behind > 0.0 ? n.behindTexel : n.litTexel;

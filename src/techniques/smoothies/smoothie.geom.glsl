@@ -2,7 +2,7 @@
 #version 450
 // Chan and Durand 2003, section 3, step 3: a rectangle on each silhouette edge, in the light's window, and at both ends
 // the part of the corner between the edge's normal and the vertex's, which is the mean over all silhouette edges that
-// meet there. See README.md, "Corners". Then the same on the blocker's side.
+// meet there. See README.md, "Corners". Then the same on the blocker's side. Variants: STORED_ALPHA, a layer a camera.
 #include "src/techniques/smoothies/layers.glsl"
 #include "src/techniques/smoothies/smoothies.glsl"
 
@@ -45,7 +45,11 @@ void emit(End end, vec2 offset, vec2 normal, int layer) {
     closest = end.place;
     blocker = end.nearness;
     place = end.place + offset;
+#ifdef STORED_ALPHA
+    gl_Layer = construction.drawnCamera;
+#else
     gl_Layer = layersPerCamera * construction.drawnCamera + layer;
+#endif
     gl_Position = vec4(2.0 * (place - window.xy) * window.zw - 1.0, 0.5, 1.0);
     EmitVertex();
 }

@@ -3,22 +3,45 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "src/techniques/smoothies/smoothie_edges_io.h"
 
 namespace penumbra {
 
 SmoothieBuffer::SmoothieBuffer(Device& device)
-    : smoothie_(device.internals().shaders,
-                {"src/techniques/smoothies/smoothie.vert.glsl", "src/techniques/smoothies/smoothie.geom.glsl",
-                 "src/techniques/smoothies/smoothie.frag.glsl"}) {}
+    : deepestEdge_(device.internals().shaders, {"src/techniques/smoothies/smoothie.vert.glsl",
+                                                "src/techniques/smoothies/smoothie.geom.glsl",
+                                                "src/techniques/smoothies/smoothie.frag.glsl"}),
+      leastAlpha_(
+          device.internals().shaders,
+          {"src/techniques/smoothies/smoothie.vert.glsl", "src/techniques/smoothies/smoothie.geom.glsl",
+           "src/techniques/smoothies/smoothie_alpha.frag.glsl"},
+          {"STORED_ALPHA"}) {}
 
-void SmoothieBuffer::draw(const SilhouetteExtractor& silhouettes, const gl::Buffer& edges,
+void SmoothieBuffer::draw(Keeps keeps, const SilhouetteExtractor& silhouettes, const gl::Buffer& edges,
                           const SurfaceMaps& surfaces, const gl::Buffer& constants) {
-    const int cameras = surfaces.casters.count();
-    layers_ = layersPerCamera * cameras;
-    gl::TextureSpec spec{.width_px = std::max(1, surfaces.casters.texture().width_px() / smoothieTexel_px),
-                         .layers = layers_,
+    keeps_ = keeps;
+    cameras_ = surfaces.casters.count();
+    const int mapSize_px = surfaces.casters.texture().width_px();
+    if (keeps == Keeps::alpha) {
+        if (stored_.fit({.width_px = mapSize_px,
+                         .height_px = mapSize_px,
+                         .layers = cameras_,
+                         .format = gl::Format::rg32f,
+                         .label = "smoothies/alpha and depth"})) {
+            storedTarget_ = gl::Framebuffer({&stored_}, nullptr, "smoothies, stored");
+        }
+        constexpr std::array<float, 4> nothing = {1, std::numeric_limits<float>::max(), 0, 0};
+        gl::Pass pass(leastAlpha_);
+        pass.into(storedTarget_,
+                  {.width_px = mapSize_px, .height_px = mapSize_px, .blend = gl::Blend::smallest})
+            .clearColor(0, nothing);
+        drawInto(pass, silhouettes, edges, surfaces, constants);
+        return;
+    }
+    gl::TextureSpec spec{.width_px = std::max(1, mapSize_px / smoothieTexel_px),
+                         .layers = layersPerCamera * cameras_,
                          .format = gl::Format::r32ui,
                          .label = "smoothies/deepest edges"};
     spec.height_px = spec.width_px;
@@ -26,18 +49,23 @@ void SmoothieBuffer::draw(const SilhouetteExtractor& silhouettes, const gl::Buff
     spec.format = gl::Format::depth32f;
     spec.label = "smoothies/order";
     order_.fit(spec);
-    if (isNew) framebuffer_ = gl::Framebuffer({&deepest_}, &order_, "smoothies");
+    if (isNew) deepestTarget_ = gl::Framebuffer({&deepest_}, &order_, "smoothies");
 
     constexpr std::array<std::uint32_t, 4> noEdge = {0xffffffffu};
-    gl::Pass pass(smoothie_);
-    pass.bind(surfaces)
-        .into(framebuffer_, {.width_px = spec.width_px,
-                             .height_px = spec.height_px,
-                             .depthTest = gl::Compare::less,
-                             .depthWrite = true})
+    gl::Pass pass(deepestEdge_);
+    pass.into(deepestTarget_, {.width_px = spec.width_px,
+                               .height_px = spec.height_px,
+                               .depthTest = gl::Compare::less,
+                               .depthWrite = true})
         .clearColor(0, noEdge)
         .clearDepth(1);
-    for (int camera = 0; camera < cameras; ++camera) {
+    drawInto(pass, silhouettes, edges, surfaces, constants);
+}
+
+void SmoothieBuffer::drawInto(gl::Pass& pass, const SilhouetteExtractor& silhouettes, const gl::Buffer& edges,
+                              const SurfaceMaps& surfaces, const gl::Buffer& constants) const {
+    pass.bind(surfaces);
+    for (int camera = 0; camera < cameras_; ++camera) {
         const std::size_t first = std::size_t(camera) * silhouettes.edgeCount();
         std::size_t offset_bytes = first * sizeof(SmoothieEdge);
         for (const char* input : {"ends", "normals", "nearnessAndWidths"}) {
@@ -52,10 +80,16 @@ void SmoothieBuffer::draw(const SilhouetteExtractor& silhouettes, const gl::Buff
 }
 
 void SmoothieBuffer::inspect(InspectionVisitor& visitor) const {
+    if (keeps_ == Keeps::alpha) {
+        visitor.texture({.name = "smoothie buffer: alpha, and the depth of the nearest smoothie",
+                         .texture = stored_.name(),
+                         .layers = cameras_});
+        return;
+    }
     // a / (1 + a) of alpha: half at the penumbra's border. Outer half, then the inner one in three layers.
     visitor.texture({.name = "alpha of the deepest smoothies, outer and inner halves",
                      .texture = order_.name(),
-                     .layers = layers_,
+                     .layers = layersPerCamera * cameras_,
                      .white = 0.5f});
 }
 

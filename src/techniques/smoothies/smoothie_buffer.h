@@ -9,24 +9,33 @@
 
 namespace penumbra {
 
-/// Chan and Durand 2003, section 3, step 4: smoothies drawn into the light's window. A texel keeps the number
-/// of the edge in whose penumbra it lies deepest, in the layers of layers.glsl for each camera.
+/// Chan and Durand 2003, section 3, step 4: smoothies drawn into the light's window.
 class SmoothieBuffer {
   public:
+    enum class Keeps {
+        edges,  ///< the number of the edge in whose penumbra a texel lies deepest, in the layers of
+                ///< layers.glsl for each camera, at half the depth maps' size
+        alpha,  ///< as published: the least alpha and the nearest depth, at the depth maps' size
+    };
+
     explicit SmoothieBuffer(Device& device);
 
-    /// Of half the depth maps' size.
-    void draw(const SilhouetteExtractor& silhouettes, const gl::Buffer& edges, const SurfaceMaps& surfaces,
-              const gl::Buffer& constants);
+    void draw(Keeps keeps, const SilhouetteExtractor& silhouettes, const gl::Buffer& edges,
+              const SurfaceMaps& surfaces, const gl::Buffer& constants);
 
     const gl::Texture& deepestEdges() const { return deepest_; }
+    const gl::Texture& storedAlpha() const { return stored_; }
     void inspect(InspectionVisitor& visitor) const;
 
   private:
-    gl::Program smoothie_;
-    gl::Texture deepest_, order_;
-    gl::Framebuffer framebuffer_;
-    int layers_ = 0;
+    void drawInto(gl::Pass& pass, const SilhouetteExtractor& silhouettes, const gl::Buffer& edges,
+                  const SurfaceMaps& surfaces, const gl::Buffer& constants) const;
+
+    gl::Program deepestEdge_, leastAlpha_;
+    gl::Texture deepest_, order_, stored_;
+    gl::Framebuffer deepestTarget_, storedTarget_;
+    Keeps keeps_ = Keeps::edges;
+    int cameras_ = 0;
 };
 
 }  // namespace penumbra

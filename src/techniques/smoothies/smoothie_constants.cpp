@@ -77,7 +77,7 @@ SmoothieConstants smoothieConstants(const SmoothieSettings& settings, const Shad
         .fixedFrom = float(-frustum.nearest_m),
         .falloff = settings.falloff,
         .isRemapped = settings.remap,
-        .hasInnerHalf = settings.inner,
+        .hasInnerHalf = settings.inner && settings.buffer == 0,
     };
 }
 

@@ -12,6 +12,7 @@ struct SmoothieSettings {
     int mapSize_px = 1024;
     float t = 0;  ///< in half windows of a light frustum that the view does not change; 0: from the light
     bool inner = true;
+    int buffer = 0;  ///< what a texel of the smoothie buffer keeps: SmoothieBuffer::Keeps
     bool remap = true;
     int falloff = 0;
 };

@@ -10,6 +10,7 @@
 namespace penumbra {
 namespace {
 
+constexpr std::array<std::string_view, 2> buffers = {"edges", "alpha"};
 constexpr std::array<std::string_view, 3> falloffs = {"light", "linear", "sinusoidal"};
 
 /// Receivers that cast nothing are mapped at a quarter of the map's size: only widths depend on them.
@@ -45,6 +46,8 @@ Smoothies::Smoothies(Device& device)
       classify_(device, "classify.comp.glsl", {}),
       resolve_(device, "resolve.comp.glsl", {}),
       resolveColored_(device, "resolve.comp.glsl", {"COLORED"}),
+      stored_(device, "resolve_stored.comp.glsl", {}),
+      storedColored_(device, "resolve_stored.comp.glsl", {"COLORED"}),
       masked_(device, "masked.comp.glsl", {}),
       maskedColored_(device, "masked.comp.glsl", {"COLORED"}),
       constants_(std::size_t(2) * maxSmoothieCameras * sizeof(SmoothieConstants), "smoothie constants") {}
@@ -58,6 +61,12 @@ void Smoothies::describe(ParameterVisitor& visitor) {
                      .help = "smoothies reach into the blocker too, so that the umbra shrinks as the light "
                              "grows; off as in the paper"},
                     settings_.inner);
+    visitor.choice(
+        {.name = "buffer",
+         .help = "what a texel of the smoothie buffer keeps: the edge that it lies deepest under, so "
+                 "that pixels work out alpha for themselves; or, as in the paper and without inner "
+                 "halves, alpha and depth, which are filtered"},
+        settings_.buffer, buffers);
     visitor.real(
         {.name = "t",
          .help = "the paper's t (0.02 to 0.2): width of every smoothie in half windows of a light "
@@ -127,7 +136,11 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     constants_.write(std::as_bytes(std::span(constants)));
     if (hasSmoothies_) drawSmoothies(inputs, scene);
     view_.fill(inputs.view, lightFromWorldMatrix);
-    resolve(inputs, out);
+    if (hasSmoothies_ && keeps() == SmoothieBuffer::Keeps::alpha) {
+        resolveStored(inputs, out);
+    } else {
+        resolve(inputs, out);
+    }
     if (hasMaskedMap_) resolveMasked(inputs, scene, cameras, out);
 }
 
@@ -150,7 +163,7 @@ void Smoothies::drawSmoothies(const ShadowInputs& inputs, const LightSpaceScene&
     }
     {
         const auto pass = timers_.pass("smoothies/smoothies");
-        buffer_.draw(silhouettes_, construction_.edges(), surfaces, constants_);
+        buffer_.draw(keeps(), silhouettes_, construction_.edges(), surfaces, constants_);
     }
     if (inputs.light.radianceTexture != 0) profileLight(inputs.light.radianceTexture);
 }
@@ -196,6 +209,20 @@ void Smoothies::resolve(const ShadowInputs& inputs, const VisibilityBuffer& out)
         .bind("visibility", imageOf(out));
     if (out.colored()) resolving.bind("lightProfile", lightProfile_);
     resolving.dispatchIndirect(tiles_);
+}
+
+void Smoothies::resolveStored(const ShadowInputs& inputs, const VisibilityBuffer& out) {
+    const auto pass = timers_.pass("smoothies/resolve");
+    gl::Pass resolving((out.colored() ? storedColored_ : stored_).of(inputs.view));
+    resolving.constants(pictureConstants(inputs))
+        .bind(view_)
+        .bind(depthMap_)
+        .bind("SmoothieBlock", constants_, 0, maxSmoothieCameras * sizeof(SmoothieConstants))
+        .bind("deepestEdges", buffer_.deepestEdges())
+        .bind("storedAlpha", buffer_.storedAlpha())
+        .bind("visibility", imageOf(out));
+    if (out.colored()) resolving.bind("lightProfile", lightProfile_);
+    resolving.dispatchPixels(out.width_px(), out.height_px());
 }
 
 void Smoothies::resolveMasked(const ShadowInputs& inputs, const LightSpaceScene& scene,

@@ -44,8 +44,10 @@ class Smoothies final : public Technique {
     void drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scene, const LightCameras& cameras);
     void drawSmoothies(const ShadowInputs& inputs, const LightSpaceScene& scene);
     void profileLight(std::uint32_t radianceTexture);
+    SmoothieBuffer::Keeps keeps() const { return SmoothieBuffer::Keeps(settings_.buffer); }
     PictureConstants pictureConstants(const ShadowInputs& inputs) const;
     void resolve(const ShadowInputs& inputs, const VisibilityBuffer& out);
+    void resolveStored(const ShadowInputs& inputs, const VisibilityBuffer& out);
     void resolveMasked(const ShadowInputs& inputs, const LightSpaceScene& scene, const LightCameras& cameras,
                        const VisibilityBuffer& out);
 
@@ -59,7 +61,7 @@ class Smoothies final : public Technique {
     SmoothieConstruction construction_;
     SmoothieBuffer buffer_;
     gl::Program lightProfileProgram_;
-    PicturePrograms classify_, resolve_, resolveColored_, masked_, maskedColored_;
+    PicturePrograms classify_, resolve_, resolveColored_, stored_, storedColored_, masked_, maskedColored_;
     gl::Buffer tiles_;
     gl::Texture lightProfile_;
     gl::Buffer constants_;  ///< of the cameras, and as many again, so that a block may begin with any

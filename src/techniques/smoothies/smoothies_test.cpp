@@ -129,6 +129,53 @@ TEST_F(SmoothiesTest, TGivesLightsWithoutASizeTheirSmoothies) {
     }
 }
 
+/// As the paper stores and filters alpha: what the edges tell, but for texels.
+TEST_F(SmoothiesTest, StoredAlphaIsTheEdgesAlphaFiltered) {
+    const Settings edges = {{"inner", "false"}, {"falloff", "linear"}, {"t", "0.1"}};
+    Settings alpha = edges;
+    alpha.emplace_back("buffer", "alpha");
+    const Scene scene = fromAbove("half-plane");
+    const Ramp worked = rampOf(scene, edges), stored = rampOf(scene, alpha);
+    double largest = 0;
+    for (std::size_t i = 0; i < worked.v.size(); ++i)
+        largest = std::max(largest, std::abs(worked.v[i] - stored.v[i]));
+    EXPECT_LE(largest, 0.06) << "a texel of some 7 mm of 200";
+    EXPECT_GT(largest, 0) << "it is not the same thing";
+    for (const char* name : {"primitives", "two-boxes", "columns"}) {
+        Settings fine = edges, coarse = alpha;
+        fine.emplace_back("map_size", "256");
+        coarse.emplace_back("map_size", "256");
+        const LightResult a = render("smoothies", makeBuiltin(name), defaultSize, fine);
+        const LightResult b = render("smoothies", makeBuiltin(name), defaultSize, coarse);
+        EXPECT_LE(shareOfDifferentPixels(a, b, 0.3f), 0.02) << name;
+    }
+}
+
+/// A pixel brighter than all about it, by more than half.
+int pinholes(const Image& visibility) {
+    int count = 0;
+    for (int y = 1; y + 1 < visibility.height_px; ++y) {
+        for (int x = 1; x + 1 < visibility.width_px; ++x) {
+            float brightest = 0;
+            for (int i = 0; i < 9; ++i) {
+                if (i != 4) brightest = std::max(brightest, visibility.at(x + i % 3 - 1, y + i / 3 - 1));
+            }
+            count += visibility.at(x, y) > brightest + 0.5f;
+        }
+    }
+    return count;
+}
+
+TEST_F(SmoothiesTest, SilhouettesHaveNoPinholesAsPublished) {
+    for (const char* name : {"primitives", "overlapping-blockers", "moving"}) {
+        for (const char* buffer : {"edges", "alpha"}) {
+            const LightResult result =
+                render("smoothies", makeBuiltin(name), {320, 180}, {{"inner", "false"}, {"buffer", buffer}});
+            EXPECT_EQ(pinholes(result.visibility), 0) << name << " " << buffer;
+        }
+    }
+}
+
 /// t of 0 is the default: widths come from the light. Next to nothing is another thing, a hard shadow whose
 /// border is as wide as what is left of the map's texels; nothing is divided by t.
 TEST_F(SmoothiesTest, ASizeOfZeroFollowsTheLightAndATinyOneIsHard) {
