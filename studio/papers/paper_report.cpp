@@ -98,7 +98,7 @@ std::string measurements(const FigureResult& result) {
 std::string figureHtml(const FigureResult& result) {
     const Figure& figure = result.figure;
     std::string body = fmt::format("<h2>{}: {}</h2>\n", html::escape(figure.id), html::escape(figure.title));
-    if (figure.plot) body += toSvg(figure.plot());
+    if (result.plot) body += toSvg(*result.plot);
     body += figure.columns > 0
                 ? fmt::format("<div class=\"row\" style=\"grid-template-columns: repeat({}, 1fr)\">",
                               figure.columns)

@@ -146,7 +146,7 @@ std::map<std::string, Rendering> Press::render(const Figure& figure, const Situa
 }
 
 FigureResult Press::print(const Figure& figure) {
-    FigureResult result{.figure = figure, .panels = {}, .claims = {}, .standIns = {}};
+    FigureResult result{.figure = figure, .panels = {}, .claims = {}, .standIns = {}, .plot = {}};
     std::vector<std::pair<Situation, std::map<std::string, Rendering>>> all;
     const auto in = [&](const Situation& situation) -> std::map<std::string, Rendering>& {
         const auto found = std::ranges::find_if(all, [&](const auto& one) { return one.first == situation; });
@@ -194,6 +194,14 @@ FigureResult Press::print(const Figure& figure) {
                 break;
             }
         }
+    }
+    if (figure.plot) {
+        std::vector<Image> visibilities;
+        for (const Panel& panel : figure.panels) {
+            const Rendering& rendering = renderingOf(panel);
+            if (rendering.missing.empty()) visibilities.push_back(rendering.visibilities.front());
+        }
+        if (visibilities.size() == figure.panels.size()) result.plot = figure.plot(visibilities);
     }
     for (const Claim& claim : figure.claims) {
         ClaimResult& judged = result.claims.emplace_back();

@@ -30,6 +30,7 @@ struct FigureResult {
     std::vector<PanelResult> panels;
     std::vector<ClaimResult> claims;
     std::vector<std::string> standIns;  ///< "columns for sponza/Sponza.gltf"
+    std::optional<Plot> plot = {};
 };
 
 struct CellResult {

@@ -6,10 +6,12 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "studio/image/image.h"
 #include "studio/report/plot.h"
 
 namespace penumbra::studio {
@@ -76,10 +78,11 @@ struct Figure {
     std::string title;  ///< what it shows, in our words
     std::vector<Panel> panels = {};
     std::vector<Claim> claims = {};
-    int columns = 0;                  ///< panels side by side; 0: as many as fit
-    bool judged = true;               ///< errors against the ray-traced truth are measured
-    std::string note = {};            ///< how it differs from the paper's
-    std::function<Plot()> plot = {};  ///< a figure that is a formula
+    int columns = 0;        ///< panels side by side; 0: as many as fit
+    bool judged = true;     ///< errors against the ray-traced truth are measured
+    std::string note = {};  ///< how it differs from the paper's
+    /// A figure that is a plot: of the panels' visibilities, of the first light.
+    std::function<Plot(std::span<const Image>)> plot = {};
 };
 
 /// A cell of a table of costs.
