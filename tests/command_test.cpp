@@ -561,5 +561,27 @@ TEST_F(CommandTest, InfoReadsLuminaires) {
     EXPECT_EQ(run("info primitives --candela 0,0").exitCode, 2);
 }
 
+TEST_F(CommandTest, InfoTellsWhereTheSunStands) {
+    const Outcome outcome = run("info --sun -33.8688,151.2093,2026-12-21T13:00+11:00 --json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto json = nlohmann::json::parse(outcome.out);
+    EXPECT_NEAR(double(json["azimuth_deg"]), 351.220, 0.003);
+    EXPECT_NEAR(double(json["altitude_deg"]), 79.455, 0.003);
+    EXPECT_NEAR(double(json["refracted_altitude_deg"]), 79.458, 0.003);
+    EXPECT_GT(double(json["diameter_deg"]), 0.524);
+    EXPECT_GT(double(json["lux"]), 90000);
+    for (const char* place :
+         {"91,0,2026-06-21T12:00Z", "51,0,2026-06-21T12:00", "51,0,2026-06-21T00:00Z", "here"}) {
+        const Outcome wrong = run(std::string("info --json --sun ") + place);
+        EXPECT_EQ(wrong.exitCode, 3) << place;
+        EXPECT_TRUE(wrong.out.empty()) << place;
+        EXPECT_EQ(run("render two-boxes -t hard --size 8x8 -o " + at("a.png") + " --sun " + place).exitCode,
+                  3);
+        EXPECT_FALSE(fs::exists(at("a.png"))) << place;
+    }
+    EXPECT_EQ(run("info").exitCode, 2);
+    EXPECT_EQ(run("info two-boxes --north 20").exitCode, 2);
+}
+
 }  // namespace
 }  // namespace penumbra::studio

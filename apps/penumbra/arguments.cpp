@@ -48,6 +48,7 @@ glm::vec3 parsePoint(std::string_view flag, const std::string& text) {
 void addFileFlags(CLI::App& command, SceneArguments& arguments) {
     command.add_option("--lights", arguments.lightsFile,
                        "lights from this file instead of SCENE.lights.json");
+    arguments.sun.addTo(command);
     command.add_option("--scene", arguments.sceneIndex, "which scene of the file, by index");
     command.add_option("--animation", arguments.animation, "which animation plays, by index; -1: none")
         ->capture_default_str();
@@ -80,6 +81,24 @@ void addViewFlags(CLI::App& command, SceneArguments& arguments) {
 
 }  // namespace
 
+void SunArguments::addTo(CLI::App& command) {
+    CLI::Option* sun = command.add_option("--sun", place,
+                                          "LAT,LON,ISO-TIME: the sun there and then, beside the lights of a "
+                                          "file (--sun=52.52,13.405,2026-06-21T13:00+01:00)");
+    command.add_option("--north", north_deg, "degrees from -Z to north, clockwise seen from above")
+        ->needs(sun)
+        ->check(CLI::Range(-360.0, 360.0))
+        ->capture_default_str();
+    command.add_flag("--no-refraction", noRefraction, "the sun as if there were no air to bend its light")
+        ->needs(sun);
+}
+
+std::optional<SunOption> SunArguments::option() const {
+    if (!place) return {};
+    return SunOption{
+        *place, parseSunPlace(*place, "--sun"), {.north_deg = north_deg, .refraction = !noRefraction}};
+}
+
 void SceneArguments::addSceneTo(CLI::App& command, bool required) {
     command.add_option("SCENE", scene, "a glTF 2.0 file (.gltf, .glb) or the name of a built-in scene")
         ->required(required);
@@ -97,7 +116,7 @@ void SceneArguments::addFlagsTo(CLI::App& command) {
 }
 
 OpenOptions SceneArguments::openOptions() const {
-    OpenOptions options{.animation = animation, .scene = sceneIndex};
+    OpenOptions options{.sun = sun.option(), .animation = animation, .scene = sceneIndex};
     if (lightsFile) options.lightsFile = *lightsFile;
     return options;
 }

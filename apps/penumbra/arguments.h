@@ -15,10 +15,22 @@
 
 namespace penumbra::studio {
 
+/// --sun and how the scene lies in it.
+struct SunArguments {
+    std::optional<std::string> place;
+    double north_deg = 0;
+    bool noRefraction = false;
+
+    void addTo(CLI::App& command);
+    /// Throws InputError for what is no place or time.
+    std::optional<SunOption> option() const;
+};
+
 /// SCENE and how to look at it.
 struct SceneArguments {
     std::string scene;
     std::optional<std::string> lightsFile;
+    SunArguments sun;
     std::optional<std::string> camera;
     std::optional<std::string> lookFrom, lookAt;
     float fov_deg = 40;

@@ -4,6 +4,7 @@
 #include "apps/penumbra/arguments.h"
 #include "apps/penumbra/commands.h"
 #include "apps/penumbra/info_profile.h"
+#include "apps/penumbra/info_sun.h"
 #include "studio/errors.h"
 #include "studio/scene/profiles/profile_file.h"
 #include "studio/scene/topology.h"
@@ -87,8 +88,9 @@ void printInfo(const SceneArguments& arguments) {
         topology.flippedEdges, topology.degenerateTriangles);
     fmt::print("materials   {} ({} textures)\n", scene.materials.size(), scene.textures.size());
     for (const Light& light : moment.lights) {
-        fmt::print("light       {}: {} {}, {}{}\n", light.name, describeShape(light.shape),
+        fmt::print("light       {}: {} {}, {}{}{}\n", light.name, describeShape(light.shape),
                    describePlace(light.shape), describeEmission(light.emission),
+                   light.profile ? fmt::format(" x {}", light.profile->profile->fileName) : std::string(),
                    light.castsShadow ? "" : ", casts no shadow");
     }
     for (const Camera& camera : moment.cameras) fmt::print("camera      {}\n", camera.name);
@@ -109,27 +111,33 @@ struct InfoArguments {
 };
 
 void info(const InfoArguments& arguments) {
+    if (arguments.scene.scene.empty()) {
+        const auto sun = arguments.scene.sun.option();
+        if (!sun) throw UsageError("name a scene, a luminaire's file or a place and time (--sun)");
+        return printSun(*sun, arguments.json);
+    }
     if (isProfileName(arguments.scene.scene))
         return printProfile(arguments.scene.scene, arguments.candela, arguments.json);
     if (arguments.json || !arguments.candela.empty())
-        throw UsageError(fmt::format("--json and --candela are for luminaires, .ies and .ldt, not for '{}'",
-                                     arguments.scene.scene));
+        throw UsageError(
+            fmt::format("--json and --candela are for luminaires (.ies, .ldt) and the sun, not for '{}'",
+                        arguments.scene.scene));
     printInfo(arguments.scene);
 }
 
 }  // namespace
 
 void addInfo(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "info",
-        "what a scene holds (triangles, bounds, lights, animations, warnings), or a luminaire's file");
+    CLI::App* command = app.add_subcommand("info",
+                                           "what a scene holds (triangles, bounds, lights, animations, "
+                                           "warnings), a luminaire's file, or where the sun stands");
     auto arguments = std::make_shared<InfoArguments>();
-    arguments->scene.addSceneTo(*command);
+    arguments->scene.addSceneTo(*command, false);
     command
         ->add_option("--candela", arguments->candela,
                      "GAMMA,C in degrees: what a luminaire (.ies, .ldt) sends there; may be repeated")
         ->take_all();
-    command->add_flag("--json", arguments->json, "of a luminaire, as JSON");
+    command->add_flag("--json", arguments->json, "of a luminaire or the sun, as JSON");
     command->callback([arguments] { info(*arguments); });
 }
 

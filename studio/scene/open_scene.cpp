@@ -43,6 +43,31 @@ class WithDefaults : public Scene::Motion {
     std::optional<Camera> camera_;
 };
 
+/// The sun, beside the lights that a file has named, or in place of the scene's own. It stands still: an
+/// animation lasts seconds.
+class WithSun : public Scene::Motion {
+  public:
+    WithSun(std::shared_ptr<const Scene::Motion> inner, Light sun, bool keepsLights)
+        : inner_(std::move(inner)), sun_(std::move(sun)), keepsLights_(keepsLights) {}
+
+    SceneMoment at(const Scene& scene, double time_s) const override {
+        SceneMoment moment = inner_->at(scene, time_s);
+        if (!keepsLights_) moment.lights.clear();
+        const auto isTaken = [&](const std::string& name) {
+            return std::ranges::find(moment.lights, name, &Light::name) != moment.lights.end();
+        };
+        Light sun = sun_;
+        for (int number = 2; isTaken(sun.name); ++number) sun.name = fmt::format("{} {}", sun_.name, number);
+        moment.lights.push_back(std::move(sun));
+        return moment;
+    }
+
+  private:
+    std::shared_ptr<const Scene::Motion> inner_;
+    Light sun_;
+    bool keepsLights_;
+};
+
 /// The bounds at all times, near enough: over eight moments of the animation that plays.
 Bounds boundsOverTime(const Scene& scene, const SceneMoment& start, int animation) {
     Bounds bounds = start.bounds;
@@ -127,7 +152,16 @@ Scene openScene(const std::string& nameOrPath, const OpenOptions& options) {
         std::error_code error;
         if (fs::exists(sidecar, error)) lightsFile = sidecar;
     }
-    if (lightsFile) applySidecar(scene, readSidecar(*lightsFile), lightsFile->parent_path());
+    bool fileHasLights = false;
+    if (lightsFile) {
+        const Sidecar sidecar = readSidecar(*lightsFile);
+        fileHasLights = sidecar.lights.has_value();
+        applySidecar(scene, sidecar, lightsFile->parent_path());
+    }
+    if (options.sun) {
+        Light sun = sunLight("sun", options.sun->place, options.sun->setting, "--sun");
+        scene.motion = std::make_shared<WithSun>(scene.motion, std::move(sun), fileHasLights);
+    }
     addDefaults(scene, nameOrPath, options.animation);
     return scene;
 }

@@ -7,12 +7,21 @@
 #include <string>
 
 #include "studio/scene/scene.h"
+#include "studio/scene/sun/sun.h"
 
 namespace penumbra::studio {
+
+/// The sun of `--sun`.
+struct SunOption {
+    std::string text;  ///< LAT,LON,ISO-TIME as it was given
+    SunPlace place;
+    SunSetting setting;
+};
 
 struct OpenOptions {
     /// Lights from this file (see docs/lights.md) instead of from SCENE.lights.json beside the scene.
     std::optional<std::filesystem::path> lightsFile;
+    std::optional<SunOption> sun;
     int animation = 0;         ///< which clip plays, of a file that has any; -1: the rest pose
     std::optional<int> scene;  ///< which of a glTF file's scenes; the file's own default where unset
 };
@@ -21,8 +30,9 @@ struct OpenOptions {
 /// built-in).
 ///
 /// Its lights are those of `lightsFile`, else of the sidecar (chair.lights.json beside chair.glb) if there is
-/// one, else its own. A scene that has none gets a key light over it, and one without a camera gets one that
-/// frames everything at all times; both are said in Scene::warnings.
+/// one, else its own. The sun is added to those of a file; the scene's own it replaces. A scene that has none
+/// gets a key light over it, and one without a camera gets one that frames everything at all times; both are
+/// said in Scene::warnings.
 ///
 /// Throws InputError, which names the file and the remedy, for whatever is missing or wrong.
 Scene openScene(const std::string& nameOrPath, const OpenOptions& options = {});

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sun where and when it stands.
+//
+// Its apparent place is that of IAU 2006/2000A as ERFA has it (Earth's path, aberration, precession and
+// nutation, sidereal time), seen from the place itself, with UT1 = UTC and TT = UTC + 69.184 s: within 0.003
+// degrees from 1950 to 2100.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "studio/scene/scene.h"
+
+namespace penumbra::studio {
+
+/// A place on Earth and a moment there.
+struct SunPlace {
+    double latitude_deg = 0;   ///< geodetic, north positive, -90 to 90
+    double longitude_deg = 0;  ///< east positive, -180 to 180
+    double utc_days = 0;       ///< Julian date (UTC) - 2400000.5
+};
+
+struct SunPosition {
+    double azimuth_deg = 0;             ///< from north, clockwise: east is 90; 0 to 360
+    double altitude_deg = 0;            ///< of its centre, without air
+    double refracted_altitude_deg = 0;  ///< as air bends its light (Saemundsson 1986), from -1 degree up
+    double diameter_deg = 0;            ///< how large it looks
+    /// Clear sky, on a surface that faces it: 127.5 klx at 1 AU, e^-0.21 of it for each air mass (IES RP-21;
+    /// air mass: Kasten and Young 1989).
+    double illuminance_lux = 0;
+};
+
+/// Latitude and longitude in degrees. Throws InputError "WHERE: ..." beyond their ranges.
+void requirePlace(double latitude_deg, double longitude_deg, const std::string& where);
+
+/// "2026-06-21T12:00Z" or with seconds and an offset, "2026-06-21T13:00:30+01:00", as days (see SunPlace).
+/// Throws InputError "WHERE: ..." for what is no such time, has no zone, or lies outside 1900 to 2100.
+double parseSunTime(std::string_view text, const std::string& where);
+
+/// "LAT,LON,ISO-TIME"; throws InputError "WHERE: ...".
+SunPlace parseSunPlace(std::string_view text, const std::string& where);
+
+SunPosition sunPosition(const SunPlace& place);
+
+/// How a scene lies, and what of the air counts.
+struct SunSetting {
+    /// Clockwise, seen from above, from the scene's -Z to north.
+    double north_deg = 0;
+    bool refraction = true;
+};
+
+/// Throws InputError "WHERE: ..." where the sun is below the horizon.
+void requireRisen(const SunPlace& place, const SunSetting& setting, const std::string& where);
+
+/// A distant light. Throws InputError as requireRisen does.
+Light sunLight(const std::string& name, const SunPlace& place, const SunSetting& setting,
+               const std::string& where);
+
+}  // namespace penumbra::studio
