@@ -4,8 +4,8 @@
 // that the sums are always taken in the same order.
 layout(local_size_x = 256) in;
 
-layout(binding = 0) uniform sampler2D unshadowedTexture;
-layout(std430, binding = 0) writeonly buffer Exposure { float exposure; };
+uniform sampler2D unshadowedTexture;
+layout(std430) writeonly buffer Exposure { float exposure; };
 
 shared vec2 sums[256];
 

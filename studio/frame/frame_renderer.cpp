@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include "src/gl/pass.h"
 #include "studio/frame/conversions.h"
 #include "studio/frame/shaders.h"
+#include "studio/scene/profiles/light_profile.h"
 
 namespace penumbra::studio {
 namespace {
@@ -24,6 +26,38 @@ glm::dmat4 worldFromLight(const AreaLight& light, const CameraView& camera) {
     return matrix;
 }
 
+bool hasSize(const AreaLight& shape) {
+    switch (shape.shape) {
+        case LightShape::rect:
+            return shape.width_m > 0 && shape.height_m > 0;
+        case LightShape::disk:
+        case LightShape::sphere:
+            return shape.radius_m > 0;
+        case LightShape::distant:
+            return shape.angle_rad > 0;
+    }
+    return false;
+}
+
+ProfileConstants profileConstants(const Light& light) {
+    if (!light.profile) return {};
+    const CandelaGrid& grid = light.profile->profile->grid;
+    using Type = CandelaGrid::Type;
+    return {
+        .type = grid.type == Type::A   ? profileTypeA
+                : grid.type == Type::B ? profileTypeB
+                                       : profileTypeC,
+        .verticals = int(grid.verticals_deg.size()),
+        .horizontals = int(grid.horizontals_deg.size()),
+        .firstPlane_rad = float(glm::radians(grid.firstPlane_deg)),
+        .isMirrored = grid.horizontals_deg.front() == 0,
+        .isLuminaire = light.profile->isLuminaire,
+        .turn_rad = light.profile->turn_rad,
+        .angleScale = light.profile->angleScale,
+        .factor = light.profile->factor * light.profile->tilt,
+    };
+}
+
 }  // namespace
 
 FrameRenderer::FrameRenderer(Device& device, std::filesystem::path shaderSourceDirectory)
@@ -33,7 +67,6 @@ FrameRenderer::FrameRenderer(Device& device, std::filesystem::path shaderSourceD
       lighting_(shaders_, {"studio/frame/lighting.comp.glsl"}),
       exposure_(shaders_, {"studio/frame/exposure.comp.glsl"}),
       toneMap_(shaders_, {"studio/frame/tone_map.comp.glsl"}),
-      lightingConstants_("lighting"),
       exposureResult_(sizeof(float), "exposure") {}
 
 void FrameRenderer::resize(int width_px, int height_px) {
@@ -58,9 +91,9 @@ void FrameRenderer::draw(const GpuScene& scene, const SceneMoment& moment, const
 }
 
 void FrameRenderer::beginLighting() {
-    glClearTexImage(radiance_.name(), 0, GL_RGBA, GL_FLOAT, nullptr);
-    glClearTexImage(unshadowed_.name(), 0, GL_RGBA, GL_FLOAT, nullptr);
-    glClearTexImage(illuminance_.name(), 0, GL_RED, GL_FLOAT, nullptr);
+    radiance_.clear();
+    unshadowed_.clear();
+    illuminance_.clear();
 }
 
 ShadowInputs FrameRenderer::shadowInputs(const Light& light) const {
@@ -83,32 +116,36 @@ LightingConstants FrameRenderer::lightingConstants(const Light& light, bool colo
     return {
         .lightFromClip = lightFromWorld * glm::inverse(camera_.clipFromView * camera_.viewFromWorld),
         .lightFromWorld = lightFromWorld,
-        .emission = glm::vec4(light.emission.value, 0),
-        .size = {0.5f * shape.width_m, 0.5f * shape.height_m, shape.radius_m, 0.5f * shape.angle_rad},
-        .cone = glm::vec4(cone, 0, 0),
-        .kind = {int(shape.shape), shape.twoSided, light.emission.unit != Emission::Unit::nits,
-                 light.texture >= 0},
-        .target = {display_.width_px(), display_.height_px(), coloredVisibility, 0},
+        .emission = light.emission.value,
+        .halfAngle_rad = 0.5f * shape.angle_rad,
+        .halfSize_m = {0.5f * shape.width_m, 0.5f * shape.height_m},
+        .coneCosines = cone,
+        .radius_m = shape.radius_m,
+        .shape = int(shape.shape),
+        .isTwoSided = shape.twoSided,
+        .isPoint = light.emission.unit != Emission::Unit::nits && !hasSize(shape),
+        .isTextured = light.texture >= 0,
+        .isVisibilityColored = coloredVisibility,
+        .size_px = {display_.width_px(), display_.height_px()},
+        .profile = profileConstants(light),
     };
 }
 
 void FrameRenderer::addLight(const Light& light, const VisibilityBuffer& visibility) {
     const gl::DebugGroup group("lighting");
-    lighting_.use();
-    lightingConstants_.write(lightingConstants(light, visibility.colored()));
-    lightingConstants_.bindUniform(0);
-    glBindTextureUnit(0, gbuffer_.view().depthTexture);
-    gbuffer_.shadingNormals().bind(1);
-    gbuffer_.albedo().bind(2);
-    glBindTextureUnit(3, visibility.texture());
-    glBindTextureUnit(4, scene_->radianceTexture(light.texture));
-    radiance_.bindImage(0, GL_READ_WRITE);
-    unshadowed_.bindImage(1, GL_READ_WRITE);
-    reach_.bindImage(2, GL_WRITE_ONLY);
-    illuminance_.bindImage(3, GL_READ_WRITE);
-    gl::dispatchPixels(display_.width_px(), display_.height_px());
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                    GL_TEXTURE_UPDATE_BARRIER_BIT);
+    gl::Pass(lighting_)
+        .constants(lightingConstants(light, visibility.colored()))
+        .bind("Profile", scene_->profile(light))
+        .bind("depthTexture", gl::TextureRef{.name = gbuffer_.view().depthTexture})
+        .bind("shadingNormals", gbuffer_.shadingNormals())
+        .bind("albedoTexture", gbuffer_.albedo())
+        .bind("visibilityTexture", gl::TextureRef{.name = visibility.texture()})
+        .bind("radianceTexture", gl::TextureRef{.name = scene_->radianceTexture(light.texture)})
+        .bind("radianceImage", radiance_)
+        .bind("unshadowedImage", unshadowed_)
+        .bind("reachImage", reach_)
+        .bind("illuminanceImage", illuminance_)
+        .dispatchPixels(display_.width_px(), display_.height_px());
 }
 
 Image FrameRenderer::readVisibility(const VisibilityBuffer& visibility) const {
@@ -126,17 +163,15 @@ Image FrameRenderer::readRadiance() const {
 
 const gl::Texture& FrameRenderer::toneMap() {
     const gl::DebugGroup group("tone mapping");
-    exposure_.use();
-    unshadowed_.bind(0);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, exposureResult_.name());
-    glDispatchCompute(1, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    toneMap_.use();
-    radiance_.bind(0);
-    gbuffer_.albedo().bind(1);
-    glBindTextureUnit(2, gbuffer_.view().depthTexture);
-    display_.bindImage(0, GL_WRITE_ONLY);
-    gl::dispatchPixels(display_.width_px(), display_.height_px());
+    gl::Pass(exposure_).bind("unshadowedTexture", unshadowed_).bind("Exposure", exposureResult_).dispatch(1);
+    gl::Pass(toneMap_)
+        .bind("radianceTexture", radiance_)
+        .bind("albedoTexture", gbuffer_.albedo())
+        .bind("depthTexture", gl::TextureRef{.name = gbuffer_.view().depthTexture})
+        .bind("Exposure", exposureResult_)
+        .bind("displayImage", display_)
+        .dispatchPixels(display_.width_px(), display_.height_px());
+    // For whoever shows or reads it without a pass.
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
     return display_;
 }

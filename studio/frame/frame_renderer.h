@@ -68,7 +68,6 @@ class FrameRenderer {
     gl::ShaderLibrary shaders_;
     GBuffer gbuffer_;
     gl::Program lighting_, exposure_, toneMap_;
-    gl::ConstantBuffer<LightingConstants> lightingConstants_;
     gl::Buffer exposureResult_;
     gl::Texture radiance_, unshadowed_, illuminance_, reach_, display_;
     const GpuScene* scene_ = nullptr;

@@ -4,8 +4,10 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
+#include "studio/frame/conversions.h"
 #include "studio/scene/builtin/builtin.h"
 #include "studio/scene/builtin/placing.h"
+#include "studio/scene/profiles/light_profile.h"
 #include "tests/support/technique_test.h"
 
 namespace penumbra::studio {
@@ -218,6 +220,144 @@ TEST_F(FrameTest, SceneWithoutLightsIsDarkButShown) {
         workbench().run("hard", *hard, moment, moment.cameras.front(), defaultSize);
     EXPECT_TRUE(result.lights.empty());
     for (const float value : result.display.values) ASSERT_TRUE(value >= 0 && value <= 1);
+}
+
+/// A lamp with a lobe, a cut-off and nothing above; all planes differ.
+std::shared_ptr<const LightProfile> lobedProfile() {
+    LightProfile profile;
+    CandelaGrid& grid = profile.grid;
+    for (int gamma = 0; gamma <= 90; gamma += 5) grid.verticals_deg.push_back(gamma);
+    for (int c = 0; c <= 360; c += 30) grid.horizontals_deg.push_back(c);
+    for (const double c : grid.horizontals_deg)
+        for (const double gamma : grid.verticals_deg)
+            grid.candela.push_back(
+                gamma > 60 ? 0 : float(500 + 10 * gamma + 200 * std::sin(glm::radians(c + 20))));
+    return std::make_shared<LightProfile>(profile);
+}
+
+/// A light of that profile which hangs at a height over a place beside the floor's middle.
+Light profiledLight(const AreaLight& shape, bool isLuminaire, double height_m, double beside_m) {
+    Light light = diskLight("lamp", 1, {float(beside_m), float(height_m), 0}, {float(beside_m), 0, 0}, 1);
+    const Mat4 place = light.shape.worldFromLight;
+    light.shape = shape;
+    light.shape.worldFromLight = place;
+    light.emission = {isLuminaire ? Emission::Unit::candela : Emission::Unit::nits, glm::vec3(1)};
+    light.profile = {.profile = lobedProfile(), .isLuminaire = isLuminaire, .turn_rad = 0.4f};
+    return light;
+}
+
+/// Lux on the floor's middle by summing over a fine grid of the light, in double precision.
+double summedLux(const Light& light) {
+    constexpr int n = 400;
+    const glm::dmat4 worldFromLight = fromPenumbra(light.shape.worldFromLight);
+    const glm::dvec3 pos(glm::inverse(worldFromLight) * glm::dvec4(0, 0, 0, 1));
+    const glm::dvec3 normal = glm::transpose(glm::dmat3(worldFromLight)) * glm::dvec3(0, 1, 0);
+    const bool rect = light.shape.shape == LightShape::rect, sphere = light.shape.shape == LightShape::sphere;
+    const glm::dvec2 half =
+        rect ? 0.5 * glm::dvec2(light.shape.width_m, light.shape.height_m) : glm::dvec2(light.shape.radius_m);
+    glm::dvec3 x(1, 0, 0), y(0, 1, 0);
+    if (sphere) {
+        x = glm::normalize(glm::cross(pos, glm::dvec3(1, 0, 0)));
+        y = glm::normalize(glm::cross(pos, x));
+    }
+    const glm::dmat3 turn(glm::rotate(glm::dmat4(1), -double(light.profile->turn_rad), glm::dvec3(0, 0, 1)));
+    const bool isLuminaire = light.emission.unit == Emission::Unit::candela;
+    double sum = 0, area = 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const glm::dvec2 unit((i + 0.5) / n * 2 - 1, (j + 0.5) / n * 2 - 1);
+            if (!rect && glm::dot(unit, unit) > 1) continue;
+            const glm::dvec3 towards = unit.x * half.x * x + unit.y * half.y * y - pos;
+            const glm::dvec3 direction = glm::normalize(towards);
+            const double cosine = std::max(0.0, glm::dot(normal, direction)) / glm::dot(towards, towards);
+            const double atLight = isLuminaire || sphere ? 1 : std::abs(direction.z);
+            sum += light.profile->profile->grid.at(turn * -direction) * cosine * atLight;
+            area += 1;
+        }
+    const double area_m2 = rect ? 4 * half.x * half.y : glm::pi<double>() * half.x * half.x;
+    return sum / area * (isLuminaire ? 1 : area_m2);
+}
+
+double centerLux(const Light& light) {
+    return glm::pi<double>() * centerRadiance_nits(whiteFloorUnder(light));
+}
+
+TEST_F(FrameTest, LuminairesAreCandelaFromAfar) {
+    const AreaLight panel{.shape = LightShape::rect, .width_m = 0.6f, .height_m = 0.3f};
+    for (const double beside_m : {0.0, 2.5}) {
+        const Light light = profiledLight(panel, true, 4, beside_m);  // beyond five times its size
+        const double distance2 = 16 + beside_m * beside_m;
+        const glm::dmat3 turn(glm::rotate(glm::dmat4(1), -0.4, glm::dvec3(0, 0, 1)));
+        const glm::dvec3 down = glm::transpose(glm::dmat3(glm::dmat4(fromPenumbra(light.shape.worldFromLight)))) *
+                                glm::dvec3(-beside_m, -4, 0);
+        const double candela = light.profile->profile->grid.at(turn * down);
+        const double farField = candela * 4 / std::sqrt(distance2) / distance2;
+        EXPECT_NEAR(centerLux(light), farField, 0.01 * farField) << beside_m;
+    }
+}
+
+TEST_F(FrameTest, ProfilesShapeLightsOfAnyShape) {
+    const AreaLight shapes[] = {{.shape = LightShape::rect, .width_m = 1.2f, .height_m = 0.3f},
+                                {.shape = LightShape::disk, .radius_m = 0.5f},
+                                {.shape = LightShape::sphere, .radius_m = 0.3f}};
+    for (const AreaLight& shape : shapes)
+        for (const bool isLuminaire : {true, false})
+            for (const double height_m : {0.5, 1.0, 2.0, 5.0})
+                for (const double beside_m : {0.0, 0.7}) {
+                    const Light light = profiledLight(shape, isLuminaire, height_m, beside_m);
+                    const double right = summedLux(light);
+                    EXPECT_NEAR(centerLux(light), right, 0.02 * right)
+                        << int(shape.shape) << " " << isLuminaire << " " << height_m << " " << beside_m;
+                }
+}
+
+TEST_F(FrameTest, ProfilesOfAllTypesAreReadAsOnTheCpu) {
+    // A point: what it sends is the grid's own value.
+    const auto check = [](const CandelaGrid& grid, const char* what) {
+        LightProfile profile;
+        profile.grid = grid;
+        Light light = profiledLight({.shape = LightShape::sphere}, true, 3, 0);
+        for (const glm::vec3 aim : {glm::vec3(0, 0, 0), glm::vec3(2, 0, 1), glm::vec3(-1, 0, 3),
+                                    glm::vec3(-4, 0, -2), glm::vec3(1, 3.5, 2)}) {
+            light = diskLight("lamp", 1, {0, 3, 0}, aim, 1);
+            const Mat4 place = light.shape.worldFromLight;
+            light.shape = {.shape = LightShape::sphere};
+            light.shape.worldFromLight = place;
+            light.emission = {Emission::Unit::candela, glm::vec3(1)};
+            light.profile = {.profile = std::make_shared<LightProfile>(profile)};
+            const glm::dvec3 down = glm::transpose(glm::dmat3(glm::dmat4(fromPenumbra(place)))) * glm::dvec3(0, -1, 0);
+            const double right = grid.at(down) / 9;
+            EXPECT_NEAR(centerLux(light), right, 1e-3 * grid.largest() / 9)
+                << what << " " << aim.x << " " << aim.z;
+        }
+    };
+    const auto filled = [](CandelaGrid grid) {
+        for (std::size_t i = 0; i < grid.verticals_deg.size() * grid.horizontals_deg.size(); ++i)
+            grid.candela.push_back(100 + float(i * 37 % 101));
+        return grid;
+    };
+    using Type = CandelaGrid::Type;
+    check(filled({.type = Type::C, .verticals_deg = {0, 20, 50, 90, 130, 180}, .horizontals_deg = {0}}),
+          "one plane");
+    check(filled({.type = Type::C, .verticals_deg = {0, 45, 180}, .horizontals_deg = {0, 30, 90}}),
+          "quarter");
+    check(filled({.type = Type::C,
+                  .verticals_deg = {0, 45, 180},
+                  .horizontals_deg = {0, 90, 180},
+                  .firstPlane_deg = 90}),
+          "half");
+    check(filled({.type = Type::C,
+                  .verticals_deg = {0, 45, 100},
+                  .horizontals_deg = {0, 100, 360},
+                  .firstPlane_deg = 20}),
+          "whole");
+    check(filled({.type = Type::B, .verticals_deg = {-90, -10, 30, 90}, .horizontals_deg = {-90, 0, 40, 90}}),
+          "B");
+    check(filled({.type = Type::B, .verticals_deg = {-90, -10, 30, 90}, .horizontals_deg = {0, 40, 90}}),
+          "B mirrored");
+    check(
+        filled({.type = Type::A, .verticals_deg = {-90, -10, 30, 90}, .horizontals_deg = {-180, 0, 40, 180}}),
+        "A");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "studio/frame/conversions.h"
+#include "studio/scene/profiles/light_profile.h"
 
 namespace penumbra::studio {
 namespace {
@@ -46,9 +47,19 @@ gl::Texture uploadRadianceTexture(const Picture& picture) {
     return result;
 }
 
+gl::Buffer uploadProfile(const LightProfile& profile) {
+    const CandelaGrid& grid = profile.grid;
+    std::vector<float> values;
+    for (const auto* angles : {&grid.verticals_deg, &grid.horizontals_deg})
+        for (const double angle : *angles) values.push_back(float(glm::radians(angle)));
+    values.insert(values.end(), grid.candela.begin(), grid.candela.end());
+    return gl::Buffer(std::as_bytes(std::span(values)), "profile");
+}
+
 }  // namespace
 
-GpuScene::GpuScene(Device& device, const Scene& scene) : device_(device), scene_(scene) {
+GpuScene::GpuScene(Device& device, const Scene& scene)
+    : device_(device), scene_(scene), noProfile_(sizeof(float), "no profile") {
     for (const Texture& texture : scene.textures) {
         textures_.push_back(uploadTexture(texture, scene.pictures[std::size_t(texture.picture)]));
     }
@@ -62,6 +73,10 @@ GpuScene::MeshOnDevice GpuScene::upload(const Mesh& mesh) {
             gl::Buffer(std::as_bytes(std::span(mesh.normals)), "mesh normals")};
 }
 
+const gl::Buffer& GpuScene::profile(const Light& light) const {
+    return light.profile ? profiles_.at(light.profile->profile.get()).values : noProfile_;
+}
+
 void GpuScene::update(const SceneMoment& moment) {
     const auto isDeformed = [](const Instance& instance) { return !instance.positions.empty(); };
     // Meshes are referred to by address below, so all of them are made first.
@@ -72,6 +87,11 @@ void GpuScene::update(const SceneMoment& moment) {
         }
     }
 
+    for (const Light& light : moment.lights) {
+        if (!light.profile || profiles_.contains(light.profile->profile.get())) continue;
+        const auto& profile = light.profile->profile;
+        profiles_.emplace(profile.get(), ProfileOnDevice{profile, uploadProfile(*profile)});
+    }
     for (const Light& light : moment.lights) {
         if (light.texture < 0 || radianceTextures_.contains(light.texture)) continue;
         const Texture& texture = scene_.textures[std::size_t(light.texture)];

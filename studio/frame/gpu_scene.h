@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "penumbra/penumbra.h"
@@ -38,7 +39,15 @@ class GpuScene {
     /// it: the picture's bottom row lies at the light's -Y edge.
     GLuint radianceTexture(int index) const { return index < 0 ? 0 : radianceTextures_.at(index).name(); }
 
+    /// The angles (radians) and candela of a light of the moment, as studio/frame/profile.glsl reads them; a
+    /// buffer of nothing for one without a profile.
+    const gl::Buffer& profile(const Light& light) const;
+
   private:
+    struct ProfileOnDevice {
+        std::shared_ptr<const LightProfile> profile;
+        gl::Buffer values;
+    };
     struct MeshOnDevice {
         penumbra::Mesh mesh;
         gl::Buffer normals;
@@ -49,8 +58,10 @@ class GpuScene {
     const Scene& scene_;
     std::vector<gl::Texture> textures_;
     std::map<int, gl::Texture> radianceTextures_;  ///< by index into Scene::textures
-    std::vector<MeshOnDevice> shared_;             ///< one a mesh of the scene
-    std::vector<MeshOnDevice> deforming_;          ///< one an instance that deforms, in their order
+    std::map<const LightProfile*, ProfileOnDevice> profiles_;
+    gl::Buffer noProfile_;
+    std::vector<MeshOnDevice> shared_;     ///< one a mesh of the scene
+    std::vector<MeshOnDevice> deforming_;  ///< one an instance that deforms, in their order
     std::vector<Drawable> drawables_;
     std::vector<Caster> casters_;
 };

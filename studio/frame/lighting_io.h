@@ -3,26 +3,50 @@
 #ifndef PENUMBRA_LIGHTING_IO_H
 #define PENUMBRA_LIGHTING_IO_H
 
+#include "src/gl/shared_types.h"
+
 #ifdef __cplusplus
-#include <glm/glm.hpp>
 namespace penumbra::studio {
-using glm::ivec4;
-using glm::mat4;
-using glm::vec4;
 #endif
 
-struct LightingConstants {
+const int noProfile = 0;
+const int profileTypeA = 1;
+const int profileTypeB = 2;
+const int profileTypeC = 3;
+
+/// The grid of a profile: angles and values are in the buffer `Profile`, verticals, horizontals, candela.
+SHARED_STRUCT ProfileConstants {
+    int type;  // noProfile, ...
+    int verticals;
+    int horizontals;
+    float firstPlane_rad;  // type C
+    bool32 isMirrored;     // types A and B: -H as H
+    bool32 isLuminaire;    // of candela by share of area; else a factor of the luminance
+    float turn_rad;        // of C0, from +X towards +Y
+    float angleScale;      // UsdLux's
+    float factor;
+};
+
+SHARED_STRUCT LightingConstants {
     mat4 lightFromClip;
     mat4 lightFromWorld;  // rotates normals
-    vec4 emission;        // rgb: nits, candela or lux; a: unused
-    vec4 size;  // xy: half extents of a rect; z: radius of a disk or sphere; w: half angle of a distant light
-    vec4 cone;  // x: cosine of the inner, y: of the outer half angle of a spot; -2 where there is none
-    ivec4 kind;    // x: LightShape; y: two-sided; z: emission is of a point (candela, lux); w: textured
-    ivec4 target;  // xy: size in pixels; z: colored visibility
+    vec3 emission;        // nits, candela or lux
+    float halfAngle_rad;  // distant lights
+    vec2 halfSize_m;      // rects
+    vec2 coneCosines;     // of a spot's inner and outer half angle; -2 where there is no cone
+    float radius_m;       // disks and spheres
+    int shape;            // penumbra::LightShape
+    bool32 isTwoSided;
+    bool32 isPoint;  // of size zero: emission in candela or lux
+    bool32 isTextured;
+    bool32 isVisibilityColored;
+    ivec2 size_px;
+    ProfileConstants profile;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(LightingConstants) == 208);
+static_assert(sizeof(ProfileConstants) == 48);
+static_assert(sizeof(LightingConstants) == 240);
 }  // namespace penumbra::studio
 #endif
 #endif

@@ -3,11 +3,11 @@
 // From nits to a display: exposure, a dim even fill so that umbrae keep their shape, highlights compressed, sRGB.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(binding = 0) uniform sampler2D radianceTexture;
-layout(binding = 1) uniform sampler2D albedoTexture;
-layout(binding = 2) uniform sampler2D depthTexture;
-layout(std430, binding = 0) readonly buffer Exposure { float exposure; };
-layout(binding = 0, rgba8) uniform writeonly image2D displayImage;
+uniform sampler2D radianceTexture;
+uniform sampler2D albedoTexture;
+uniform sampler2D depthTexture;
+layout(std430) readonly buffer Exposure { float exposure; };
+layout(rgba8) uniform writeonly image2D displayImage;
 
 const vec3 background = vec3(0.02, 0.022, 0.027);  // display-linear
 const float fill = 0.06;                          // of what a white surface would show at the mean

@@ -74,11 +74,23 @@ struct Mesh {
 struct Emission {
     enum class Unit {
         nits,     ///< radiance-like: luminance of the emitting surface
-        candela,  ///< a point light or spot of size zero
+        candela,  ///< a light of size zero; of a luminaire (see Light::profile): a factor of its profile's
         lux,      ///< a distant light of angle zero
     };
     Unit unit = Unit::nits;
     glm::vec3 value{1};
+};
+
+struct LightProfile;
+
+/// How strongly a light shines, direction by direction.
+struct ProfiledEmission {
+    std::shared_ptr<const LightProfile> profile;  ///< never null
+    bool isLuminaire = false;  ///< each part of the light sends the candela by its share of the area
+    float turn_rad = 0;        ///< of its C0, from the light's +X towards +Y
+    float angleScale = 0;      ///< UsdLux's shaping:ies:angleScale
+    float factor = 1;          ///< of its candela
+    float tilt = 1;            ///< another, of a luminaire: what it gives as it is tilted
 };
 
 struct Light {
@@ -89,6 +101,9 @@ struct Light {
     bool castsShadow = true;
     /// Spot lights: half-angles of the cone about -Z in which light falls off from full to none.
     std::optional<std::array<float, 2>> cone_rad;  ///< {inner, outer}
+    /// The emission (of a luminaire in candela, else as the unit says) is multiplied by the profile,
+    /// direction by direction.
+    std::optional<ProfiledEmission> profile;
 };
 
 struct Camera {

@@ -16,9 +16,9 @@ namespace {
 constexpr std::size_t maxJson_bytes = 64u << 20;
 constexpr int maxJsonDepth = 64;
 
-constexpr std::array<std::string_view, 5> supportedExtensions = {
-    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_unlit", "KHR_lights_punctual",
-    "EXT_lights_area"};
+constexpr std::array<std::string_view, 6> supportedExtensions = {
+    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_unlit",
+    "KHR_lights_punctual",   "EXT_lights_area",       "EXT_lights_ies"};
 
 std::uint32_t littleEndian32(std::span<const std::byte> bytes, std::size_t at) {
     return std::uint32_t(bytes[at]) | std::uint32_t(bytes[at + 1]) << 8 | std::uint32_t(bytes[at + 2]) << 16 |

@@ -9,6 +9,7 @@
 #include "studio/errors.h"
 #include "studio/scene/gltf/accessor.h"
 #include "studio/scene/gltf/document.h"
+#include "studio/scene/gltf/ies_lights.h"
 #include "studio/scene/gltf/motion.h"
 
 namespace penumbra::studio {
@@ -36,7 +37,8 @@ Scene load(const std::filesystem::path& file, const GltfOptions& options) {
     parts.hierarchy = loadHierarchy(root, accessors, parts.meshes, options.scene, budget, scene);
     parts.clip =
         loadAnimations(root, accessors, parts.hierarchy, parts.meshes, options.animation, budget, scene);
-    parts.lights = loadLights(root, parts.hierarchy, scene);
+    parts.lights = loadLights(root, parts.hierarchy,
+                              loadIesLights(root, parts.hierarchy, accessors, folder, budget, scene), scene);
     parts.cameras = loadCameras(root, parts.hierarchy);
     if (scene.name.empty()) scene.name = file.stem().string();
     scene.motion = std::make_shared<GltfMotion>(std::move(parts), budget, scene);

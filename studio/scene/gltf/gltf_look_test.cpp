@@ -120,6 +120,53 @@ TEST_F(GltfLook, PrefersAreaLights) {
     EXPECT_EQ(scene.warnings.size(), 1u);
 }
 
+TEST_F(GltfLook, ReadsLuminaires) {
+    const std::string profile =
+        "IESNA:LM-63-2002\nTILT=INCLUDE\n1 2 0 90 1 0.5\n1 -1 1 2 1 1 2 0.3 0.6 0\n1 1 9\n0 90\n0\n100 100\n";
+    gltf_.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    gltf_.json["extensions"]["EXT_lights_ies"]["lights"] = {
+        {{"name", "panel"}, {"uri", "data:application/x-ies-lm-63;base64," + base64(profile)}}};
+    gltf_.json["nodes"] = {
+        {{"extensions", {{"EXT_lights_ies", {{"light", 0}}}}}},
+        {{"extensions", {{"EXT_lights_ies", {{"light", 0}, {"multiplier", 2}, {"color", {1, 0.5, 0}}}}}},
+         {"rotation", {-0.70710678, 0, 0, 0.70710678}}},
+        {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}};
+    gltf_.json["scenes"][0]["nodes"] = {0, 1, 2};
+    const Scene scene = load();
+    const std::vector<Light> lights = scene.at(0).lights;
+    ASSERT_EQ(lights.size(), 2u);
+    EXPECT_EQ(scene.warnings.size(), 1u);  // the point light is ignored
+    EXPECT_EQ(lights[0].name, "panel");
+    EXPECT_EQ(lights[0].shape.shape, LightShape::rect);
+    EXPECT_FLOAT_EQ(lights[0].shape.width_m, 0.6f);
+    EXPECT_FLOAT_EQ(lights[0].shape.height_m, 0.3f);
+    ASSERT_TRUE(lights[0].profile);
+    EXPECT_TRUE(lights[0].profile->isLuminaire);
+    EXPECT_FLOAT_EQ(lights[0].profile->tilt, 0.5f);  // shines level
+    EXPECT_NEAR(lights[1].profile->tilt, 1, 1e-5);   // and down
+    expectNear(lights[1].emission.value, {2, 1, 0});
+
+    const auto& light = gltf_.json["extensions"]["EXT_lights_ies"]["lights"][0];
+    const auto errorWith = [&](const char* key, const nlohmann::json& value) {
+        const auto before = light;
+        gltf_.json["extensions"]["EXT_lights_ies"]["lights"][0][key] = value;
+        std::string message = "accepted";
+        try {
+            load();
+        } catch (const InputError& error) {
+            message = error.what();
+        }
+        gltf_.json["extensions"]["EXT_lights_ies"]["lights"][0] = before;
+        return message;
+    };
+    EXPECT_NE(errorWith("uri", "data:application/x-ies-lm-63;base64," + base64(profile.substr(0, 60)))
+                  .find("/extensions/EXT_lights_ies/lights/0"),
+              std::string::npos);
+    EXPECT_NE(errorWith("uri", "../lamp.ies").find("beneath the file's own folder"), std::string::npos);
+    EXPECT_NE(errorWith("uri", "lost.ies").find("is not there"), std::string::npos);
+    EXPECT_NE(errorWith("bufferView", 0).find("either a uri or a bufferView"), std::string::npos);
+}
+
 TEST_F(GltfLook, ReadsCameras) {
     gltf_.json["cameras"] = {
         {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}},

@@ -11,6 +11,7 @@
 
 #include "studio/scene/gltf/unit_vector.h"
 #include "studio/scene/lights/light_units.h"
+#include "studio/scene/profiles/luminaire.h"
 
 namespace penumbra::studio::gltf {
 
@@ -135,8 +136,9 @@ Camera loadCamera(const JsonView& json) {
 
 }  // namespace
 
-std::vector<PlacedLight> loadLights(const JsonView& root, const Hierarchy& hierarchy, Scene& scene) {
-    std::vector<PlacedLight> areas, punctuals;
+std::vector<PlacedLight> loadLights(const JsonView& root, const Hierarchy& hierarchy,
+                                    std::vector<PlacedLight> luminaires, Scene& scene) {
+    std::vector<PlacedLight> areas = std::move(luminaires), punctuals;
     const auto place = [&](std::vector<PlacedLight>& lights, int node, Light light) {
         if (light.name.empty()) light.name = hierarchy.nodes[std::size_t(node)].name;
         lights.push_back({node, std::move(light)});
@@ -150,9 +152,10 @@ std::vector<PlacedLight> loadLights(const JsonView& root, const Hierarchy& hiera
                  });
     if (areas.empty()) return punctuals;
     if (!punctuals.empty())
-        scene.warnings.push_back(fmt::format(
-            "/extensions/KHR_lights_punctual: {} lights are ignored, as the file has EXT_lights_area",
-            punctuals.size()));
+        scene.warnings.push_back(
+            fmt::format("/extensions/KHR_lights_punctual: {} lights are ignored, as the file has "
+                        "EXT_lights_area or EXT_lights_ies",
+                        punctuals.size()));
     return areas;
 }
 
@@ -181,11 +184,7 @@ glm::mat4 rigidPart(const glm::mat4& affine) {
 
 Light lightAt(const PlacedLight& placed, const glm::mat4& worldFromNode) {
     Light light = placed.light;
-    const glm::mat4 worldFromLight = rigidPart(worldFromNode);
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            light.shape.worldFromLight.columns[std::size_t(column)][std::size_t(row)] =
-                worldFromLight[column][row];
+    place(light, rigidPart(worldFromNode));
     return light;
 }
 

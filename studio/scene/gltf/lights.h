@@ -16,8 +16,10 @@ struct PlacedCamera {
     Camera camera;
 };
 
-/// The lights of EXT_lights_area if any node of the scene has one, else those of KHR_lights_punctual.
-std::vector<PlacedLight> loadLights(const JsonView& root, const Hierarchy& hierarchy, Scene& scene);
+/// The lights of EXT_lights_area and `luminaires` (of EXT_lights_ies) if any node of the scene has one, else
+/// those of KHR_lights_punctual.
+std::vector<PlacedLight> loadLights(const JsonView& root, const Hierarchy& hierarchy,
+                                    std::vector<PlacedLight> luminaires, Scene& scene);
 
 std::vector<PlacedCamera> loadCameras(const JsonView& root, const Hierarchy& hierarchy);
 

@@ -14,12 +14,25 @@
 
 namespace penumbra::studio {
 
+/// The profile of a light, or a luminaire's.
+struct SidecarProfile {
+    std::string file;  ///< relative to the sidecar's folder
+    int line = 0;
+    /// The light is the luminaire: its shape and size are those of the file, too.
+    bool isLuminaire = false;
+    float angleScale = 0;    ///< UsdLux's
+    bool normalize = false;  ///< divided by its mean over the sphere
+    float turn_deg = 0;      ///< of C0, from +X towards +Y
+};
+
 /// A light as the file states it.
 struct SidecarLight {
-    Light light;  ///< all but what depends on the scene: the shape's transform and the texture's index
+    Light light;  ///< all but what depends on the scene and on other files: its transform, the texture's
+                  ///< index, the profile, and the shape of a luminaire
     glm::mat4 parentFromLight{1};  ///< rigid
     std::string node;              ///< the parent, by name; empty: the world
-    std::string textureFile;       ///< relative to the file's folder, or empty
+    std::optional<SidecarProfile> profile;
+    std::string textureFile;  ///< relative to the file's folder, or empty
     int nodeLine = 0, textureLine = 0;
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <bit>
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
@@ -15,6 +15,8 @@
 #include "studio/scene/gltf/picture_decode.h"
 #include "studio/scene/lights/nearest_name.h"
 #include "studio/scene/lights/sidecar.h"
+#include "studio/scene/profiles/luminaire.h"
+#include "studio/scene/profiles/profile_file.h"
 
 namespace penumbra::studio {
 namespace {
@@ -60,6 +62,47 @@ class TextureLoader {
     const fs::path& folder_;
     std::map<std::string, int> textures_;
     std::uint64_t pixels_ = 0;
+};
+
+/// Reads the profiles of a sidecar's lights, each once.
+class ProfileLoader {
+  public:
+    ProfileLoader(Scene& scene, const fs::path& folder) : scene_(scene), folder_(folder) {}
+
+    /// Gives the light its profile, and a luminaire its shape.
+    void load(const SidecarProfile& stated, const std::string& where, Light& light) {
+        const auto profile = read(stated, where);
+        const float turn_rad = glm::radians(stated.turn_deg);
+        if (stated.isLuminaire) {
+            const std::string note = makeLuminaire(profile, turn_rad, light.emission.value, light);
+            if (!note.empty())
+                scene_.warnings.push_back(fmt::format("{}: '{}': {}", where, stated.file, note));
+            return;
+        }
+        const double mean_cd = profile->grid.integral() / (4 * std::numbers::pi);
+        if (stated.normalize && !(mean_cd > 0))
+            throw InputError(
+                fmt::format("{}: '{}' is dark: there is no mean to divide by", where, stated.file));
+        light.profile = {.profile = profile,
+                         .turn_rad = turn_rad,
+                         .angleScale = stated.angleScale,
+                         .factor = stated.normalize ? float(1 / mean_cd) : 1};
+    }
+
+  private:
+    std::shared_ptr<const LightProfile> read(const SidecarProfile& stated, const std::string& where) {
+        auto& profile = profiles_[stated.file];
+        if (profile) return profile;
+        const char* const key = stated.isLuminaire ? "file" : "shaping:ies:file";
+        profile = std::make_shared<LightProfile>(
+            readProfile(fileBeneath(folder_, stated.file, fmt::format("{}: '{}'", where, key)), where));
+        scene_.warnings.insert(scene_.warnings.end(), profile->warnings.begin(), profile->warnings.end());
+        return profile;
+    }
+
+    Scene& scene_;
+    fs::path folder_;
+    std::map<std::string, std::shared_ptr<const LightProfile>> profiles_;
 };
 
 /// Which nodes of a scene have a name.
@@ -122,8 +165,7 @@ class SidecarMotion : public Scene::Motion {
                 const glm::mat4 worldFromParent =
                     attached.node ? moment.worldFromNode[*attached.node] : glm::mat4(1);
                 Light light = attached.light;
-                light.shape.worldFromLight =
-                    std::bit_cast<Mat4>(gltf::rigidPart(worldFromParent * attached.parentFromLight));
+                place(light, gltf::rigidPart(worldFromParent * attached.parentFromLight));
                 moment.lights.push_back(std::move(light));
             }
         }
@@ -153,8 +195,12 @@ void applySidecar(Scene& scene, const Sidecar& sidecar, const fs::path& folder) 
     if (sidecar.lights) {
         lights.emplace();
         TextureLoader textures(scene, folder);
+        ProfileLoader profiles(scene, folder);
         for (const SidecarLight& read : *sidecar.lights) {
             AttachedLight attached{read.light, read.parentFromLight, {}};
+            if (read.profile)
+                profiles.load(*read.profile, fmt::format("{}:{}", sidecar.fileName, read.profile->line),
+                              attached.light);
             if (!read.node.empty()) attached.node = nodes.one(read.node, read.nodeLine);
             if (!read.textureFile.empty())
                 attached.light.texture =

@@ -4,133 +4,64 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
-#include <initializer_list>
-#include <limits>
 #include <numbers>
 #include <set>
 #include <span>
 
-#include "studio/errors.h"
-#include "studio/scene/lights/located_json.h"
-#include "studio/scene/lights/nearest_name.h"
+#include "studio/scene/lights/black_body.h"
 #include "studio/scene/lights/sidecar.h"
+#include "studio/scene/lights/sidecar_reader.h"
+#include "studio/scene/profiles/profile_file.h"
+#include "studio/scene/sun/sun.h"
 
 namespace penumbra::studio {
 namespace {
 
-using Kind = LocatedJson::Kind;
-
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A number's range; an open end is said so in messages.
-struct Limits {
-    double min = -infinity, max = infinity;
-};
-constexpr Limits atLeastZero{0, infinity};
+using Keys = std::span<const std::string_view>;
 
-/// Reads values of one file, and says what is wrong with them.
-class Reader {
-  public:
-    explicit Reader(std::string fileName) : fileName_(std::move(fileName)) {}
+constexpr std::array<std::string_view, 7> commonKeys{
+    "name", "type", "exposure", "color", "enableColorTemperature", "colorTemperature", "shadow:enable"};
+constexpr std::array<std::string_view, 3> placeKeys{"node", "translation", "rotation"};
+constexpr std::array<std::string_view, 2> luminanceKeys{"intensity", "normalize"};
+constexpr std::array<std::string_view, 6> shapingKeys{"shaping:cone:angle",    "shaping:cone:softness",
+                                                      "shaping:ies:file",      "shaping:ies:angleScale",
+                                                      "shaping:ies:normalize", "shaping:ies:turn"};
+constexpr std::array<std::string_view, 4> rectKeys{"width", "height", "texture:file", "twoSided"};
+constexpr std::array<std::string_view, 2> diskKeys{"radius", "twoSided"};
+constexpr std::array<std::string_view, 1> sphereKeys{"radius"};
+constexpr std::array<std::string_view, 1> distantKeys{"angle"};
+constexpr std::array<std::string_view, 3> luminaireKeys{"file", "multiplier", "turn"};
+constexpr std::array<std::string_view, 6> sunKeys{"latitude", "longitude",  "time",
+                                                  "north",    "refraction", "multiplier"};
 
-    [[noreturn]] void fail(int line, const std::string& problem) const {
-        throw InputError(fmt::format("{}:{}: {}", fileName_, line, problem));
-    }
+/// What a light says of itself beyond UsdLux's schemas.
+enum class Source { shape, luminaire, sun };
 
-    void expect(const LocatedJson& value, Kind kind, std::string_view what) const {
-        if (value.kind == kind) return;
-        const std::string_view wanted = nameOf(kind);
-        const bool vowel = wanted[0] == 'a' || wanted[0] == 'o';
-        fail(value.line,
-             fmt::format("{} must be {} {}, not {}", what, vowel ? "an" : "a", wanted, nameOf(value.kind)));
-    }
-
-    float number(const LocatedJson& value, std::string_view what, const Limits& limits = {}) const {
-        expect(value, Kind::number, what);
-        if (!std::isfinite(float(value.number)))
-            fail(value.line, fmt::format("{} must be a number of ordinary size, not {}", what, value.number));
-        if (value.number < limits.min || value.number > limits.max)
-            fail(value.line, fmt::format("{} must be {}, not {}", what, describe(limits), value.number));
-        return float(value.number);
-    }
-
-    template <int count>
-    glm::vec<count, float> vector(const LocatedJson& value, std::string_view what,
-                                  const Limits& limits = {}) const {
-        expect(value, Kind::array, what);
-        if (value.items.size() != count)
-            fail(value.line, fmt::format("{} must have {} numbers, not {}", what, count, value.items.size()));
-        glm::vec<count, float> result;
-        for (int i = 0; i < count; ++i)
-            result[i] = number(value.items[i], fmt::format("{}[{}]", what, i), limits);
-        return result;
-    }
-
-    bool boolean(const LocatedJson& value, std::string_view what) const {
-        expect(value, Kind::boolean, what);
-        return value.boolean;
-    }
-
-    const std::string& text(const LocatedJson& value, std::string_view what) const {
-        expect(value, Kind::string, what);
-        if (value.text.empty()) fail(value.line, fmt::format("{} must not be empty", what));
-        if (std::ranges::any_of(value.text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
-            fail(value.line, fmt::format("{} must not contain control characters", what));
-        return value.text;
-    }
-
-    /// Turns down keys that are not among `known`.
-    void checkKeys(const LocatedJson& object, std::span<const std::string_view> known,
-                   std::string_view where) const {
-        for (const auto& member : object.members)
-            if (std::ranges::find(known, member.key) == known.end())
-                fail(member.line, fmt::format("unknown key '{}' in {}{}", member.key, where,
-                                              didYouMean(member.key, known)));
-    }
-
-  private:
-    static std::string describe(const Limits& limits) {
-        if (limits.max == infinity) return fmt::format("at least {}", limits.min);
-        return fmt::format("between {} and {}", limits.min, limits.max);
-    }
-
-    std::string fileName_;
-};
-
-const LocatedJson* find(const LocatedJson& object, std::string_view key) {
-    const auto member = std::ranges::find(object.members, key, &LocatedJson::Member::key);
-    return member == object.members.end() ? nullptr : &member->value;
-}
-
-/// A UsdLux schema: its name, what it is here, and the keys that it has beyond the common ones.
+/// A schema, of UsdLux but for the last two: its name, what it is here, and the keys that it has beyond the
+/// common ones.
 struct LightType {
     std::string_view name;
+    Source source;
     LightShape shape;
-    std::span<const std::string_view> keys;
+    std::array<Keys, 4> keys;
 };
 
-constexpr std::array<std::string_view, 6> rectKeys{
-    "width", "height", "texture:file", "twoSided", "shaping:cone:angle", "shaping:cone:softness"};
-constexpr std::array<std::string_view, 4> diskKeys{"radius", "twoSided", "shaping:cone:angle",
-                                                   "shaping:cone:softness"};
-constexpr std::array<std::string_view, 3> sphereKeys{"radius", "shaping:cone:angle", "shaping:cone:softness"};
-constexpr std::array<std::string_view, 1> distantKeys{"angle"};
-constexpr std::array<LightType, 4> lightTypes{{
-    {"RectLight", LightShape::rect, rectKeys},
-    {"DiskLight", LightShape::disk, diskKeys},
-    {"SphereLight", LightShape::sphere, sphereKeys},
-    {"DistantLight", LightShape::distant, distantKeys},
+constexpr std::array<LightType, 6> lightTypes{{
+    {"RectLight", Source::shape, LightShape::rect, {placeKeys, luminanceKeys, shapingKeys, rectKeys}},
+    {"DiskLight", Source::shape, LightShape::disk, {placeKeys, luminanceKeys, shapingKeys, diskKeys}},
+    {"SphereLight", Source::shape, LightShape::sphere, {placeKeys, luminanceKeys, shapingKeys, sphereKeys}},
+    {"DistantLight", Source::shape, LightShape::distant, {placeKeys, luminanceKeys, distantKeys}},
+    {"LuminaireLight", Source::luminaire, LightShape::rect, {placeKeys, luminaireKeys}},
+    {"SunLight", Source::sun, LightShape::distant, {sunKeys}},
 }};
 
-constexpr std::array<std::string_view, 10> commonKeys{"name",     "type",         "intensity", "exposure",
-                                                      "color",    "normalize",    "node",      "translation",
-                                                      "rotation", "shadow:enable"};
-
-const LightType& readType(const Reader& reader, const LocatedJson& object) {
-    const LocatedJson* type = find(object, "type");
+const LightType& readType(const SidecarReader& reader, const LocatedJson& object) {
+    const LocatedJson* type = member(object, "type");
     std::vector<std::string_view> names;
     for (const LightType& known : lightTypes) names.push_back(known.name);
     if (!type)
@@ -143,7 +74,7 @@ const LightType& readType(const Reader& reader, const LocatedJson& object) {
 }
 
 /// Rotation of the light's frame; a quaternion (x, y, z, w) of length 1, give or take what six digits leave.
-glm::mat4 readRotation(const Reader& reader, const LocatedJson& value) {
+glm::mat4 readRotation(const SidecarReader& reader, const LocatedJson& value) {
     const auto xyzw = reader.vector<4>(value, "'rotation'");
     const float length = glm::length(xyzw);
     if (!(std::abs(length - 1) <= 1e-3f))
@@ -171,25 +102,34 @@ float sizeFactor(const AreaLight& shape) {
     return 0;
 }
 
+/// The colour times 2^exposure and `amount`.
+glm::vec3 readStrength(const SidecarReader& reader, const LocatedJson& object, float amount) {
+    const LocatedJson* color = member(object, "color");
+    glm::vec3 strength = color ? reader.vector<3>(*color, "'color'", atLeastZero) : glm::vec3(1);
+    const float temperature_K = reader.number(object, "colorTemperature", 6500, {1000, 25000});
+    if (reader.boolean(object, "enableColorTemperature", false)) strength *= blackBodyColor(temperature_K);
+    strength *= amount * std::exp2(reader.number(object, "exposure", 0, {-100, 100}));
+    return strength;
+}
+
+void requireFinite(const SidecarReader& reader, const LocatedJson& object, const glm::vec3& value) {
+    for (int channel = 0; channel < 3; ++channel)
+        if (!std::isfinite(value[channel]))
+            reader.fail(object.line,
+                        "the light is too strong: intensity x 2^exposure x color must stay below 3.4e38");
+}
+
 /// Luminance from intensity, exposure and colour. A light without size has none: there `intensity` is what an
 /// area light shrinking with `normalize` tends to, in candela (a quarter for a sphere, whose area is four
 /// times what it shows) or lux; and without `normalize`, which would leave darkness, it is simply candela or
 /// lux.
-Emission readEmission(const Reader& reader, const LocatedJson& object, const AreaLight& shape) {
-    const auto number = [&](std::string_view key, float fallback, const Limits& limits) {
-        const LocatedJson* value = find(object, key);
-        return value ? reader.number(*value, fmt::format("'{}'", key), limits) : fallback;
-    };
+Emission readEmission(const SidecarReader& reader, const LocatedJson& object, const AreaLight& shape) {
     const bool distant = shape.shape == LightShape::distant;
-    const float intensity = number("intensity", distant ? 50000.0f : 1.0f, atLeastZero);
-    const float exposure = number("exposure", 0, {-100, 100});
-    const LocatedJson* color = find(object, "color");
-    const LocatedJson* normalize = find(object, "normalize");
+    const float intensity = reader.number(object, "intensity", distant ? 50000.0f : 1.0f, atLeastZero);
+    const bool normalized = reader.boolean(object, "normalize", false);
 
     Emission emission;
-    emission.value = color ? reader.vector<3>(*color, "'color'", atLeastZero) : glm::vec3(1);
-    emission.value *= intensity * std::exp2(exposure);
-    const bool normalized = normalize && reader.boolean(*normalize, "'normalize'");
+    emission.value = readStrength(reader, object, intensity);
     const float area = sizeFactor(shape);
     if (area > 0) {
         if (normalized) emission.value /= area;
@@ -197,82 +137,142 @@ Emission readEmission(const Reader& reader, const LocatedJson& object, const Are
         emission.unit = distant ? Emission::Unit::lux : Emission::Unit::candela;
         if (normalized && shape.shape == LightShape::sphere) emission.value *= 0.25f;
     }
-    for (int channel = 0; channel < 3; ++channel)
-        if (!std::isfinite(emission.value[channel]))
-            reader.fail(object.line,
-                        "the light is too strong: intensity x 2^exposure x color must stay below 3.4e38");
+    requireFinite(reader, object, emission.value);
     return emission;
 }
 
 /// UsdLux: from full light at (1 - softness) angle to none at the angle.
-std::optional<std::array<float, 2>> readCone(const Reader& reader, const LocatedJson& object) {
-    const LocatedJson* angle = find(object, "shaping:cone:angle");
-    const LocatedJson* softness = find(object, "shaping:cone:softness");
-    if (!angle && !softness) return {};
-    const float outer_rad =
-        glm::radians(angle ? reader.number(*angle, "'shaping:cone:angle'", {0, 180}) : 90.0f);
-    const float soft = softness ? reader.number(*softness, "'shaping:cone:softness'", {0, 1}) : 0.0f;
+std::optional<std::array<float, 2>> readCone(const SidecarReader& reader, const LocatedJson& object) {
+    if (!member(object, "shaping:cone:angle") && !member(object, "shaping:cone:softness")) return {};
+    const float outer_rad = glm::radians(reader.number(object, "shaping:cone:angle", 90, {0, 180}));
+    const float soft = reader.number(object, "shaping:cone:softness", 0, {0, 1});
     return std::array{(1 - soft) * outer_rad, outer_rad};
 }
 
-SidecarLight readLight(const Reader& reader, const LocatedJson& object) {
-    reader.expect(object, Kind::object, "a light");
-    const LightType& type = readType(reader, object);
-    std::vector<std::string_view> known(commonKeys.begin(), commonKeys.end());
-    known.insert(known.end(), type.keys.begin(), type.keys.end());
-    reader.checkKeys(object, known, type.name);
+SidecarProfile readProfileFile(const SidecarReader& reader, const LocatedJson& file, std::string_view key) {
+    SidecarProfile profile;
+    profile.file = reader.text(file, fmt::format("'{}'", key));
+    profile.line = file.line;
+    if (!isProfileName(profile.file))
+        reader.fail(file.line, fmt::format("'{}' must name an LM-63 (.ies) or EULUMDAT (.ldt) file, not '{}'",
+                                           key, profile.file));
+    return profile;
+}
 
-    SidecarLight read;
+std::optional<SidecarProfile> readShapingProfile(const SidecarReader& reader, const LocatedJson& object) {
+    const LocatedJson* file = member(object, "shaping:ies:file");
+    // Read even where there is no file, so that what is wrong with them is said.
+    const float angleScale = reader.number(object, "shaping:ies:angleScale", 0, {-10, 10});
+    const bool normalize = reader.boolean(object, "shaping:ies:normalize", false);
+    const float turn_deg = reader.number(object, "shaping:ies:turn", 0, {-360, 360});
+    if (!file) return {};
+    SidecarProfile profile = readProfileFile(reader, *file, "shaping:ies:file");
+    profile.angleScale = angleScale;
+    profile.normalize = normalize;
+    profile.turn_deg = turn_deg;
+    return profile;
+}
+
+/// Its shape is known once its file is read.
+void readLuminaire(const SidecarReader& reader, const LocatedJson& object, SidecarLight& read) {
+    const LocatedJson* file = member(object, "file");
+    if (!file) reader.fail(object.line, "a LuminaireLight needs a 'file': LM-63 (.ies) or EULUMDAT (.ldt)");
+    read.profile = readProfileFile(reader, *file, "file");
+    read.profile->isLuminaire = true;
+    read.profile->turn_deg = reader.number(object, "turn", 0, {-360, 360});
+    read.light.emission = {Emission::Unit::candela,
+                           readStrength(reader, object, reader.number(object, "multiplier", 1, atLeastZero))};
+    requireFinite(reader, object, read.light.emission.value);
+}
+
+void readSun(const SidecarReader& reader, const LocatedJson& object, SidecarLight& read) {
+    for (const std::string_view key : {"latitude", "longitude", "time"})
+        if (!member(object, key)) reader.fail(object.line, fmt::format("a SunLight needs a '{}'", key));
+    const LocatedJson& time = *member(object, "time");
+    SunPlace place;
+    place.latitude_deg = reader.number(*member(object, "latitude"), "'latitude'", {-90, 90});
+    place.longitude_deg = reader.number(*member(object, "longitude"), "'longitude'", {-180, 180});
+    place.utc_days = parseSunTime(reader.text(time, "'time'"), reader.place(time.line));
+    const SunSetting setting{.north_deg = reader.number(object, "north", 0, {-360, 360}),
+                             .refraction = reader.boolean(object, "refraction", true)};
+    const Light sun = sunLight(read.light.name, place, setting, reader.place(time.line));
+    read.light.shape = sun.shape;
+    read.parentFromLight = std::bit_cast<glm::mat4>(sun.shape.worldFromLight);
+    read.light.emission = sun.emission;
+    read.light.emission.value *=
+        readStrength(reader, object, reader.number(object, "multiplier", 1, atLeastZero));
+    requireFinite(reader, object, read.light.emission.value);
+}
+
+/// Sizes, UsdLux's where absent; brightness and shaping.
+void readShape(const SidecarReader& reader, const LocatedJson& object, SidecarLight& read) {
     AreaLight& shape = read.light.shape;
-    shape.shape = type.shape;
-    const LocatedJson* name = find(object, "name");
-    if (!name) reader.fail(object.line, "a light needs a 'name'");
-    read.light.name = reader.text(*name, "'name'");
-
-    // Sizes, UsdLux's where absent.
-    const auto size = [&](std::string_view key, float fallback, const Limits& limits) {
-        const LocatedJson* value = find(object, key);
-        return value ? reader.number(*value, fmt::format("'{}'", key), limits) : fallback;
-    };
-    if (type.shape == LightShape::rect) {
-        shape.width_m = size("width", 1, atLeastZero);
-        shape.height_m = size("height", 1, atLeastZero);
-    } else if (type.shape == LightShape::distant) {
-        shape.angle_rad = std::min(glm::radians(size("angle", 0.53f, {0, 180})), pi);
+    if (shape.shape == LightShape::rect) {
+        shape.width_m = reader.number(object, "width", 1, atLeastZero);
+        shape.height_m = reader.number(object, "height", 1, atLeastZero);
+    } else if (shape.shape == LightShape::distant) {
+        shape.angle_rad = std::min(glm::radians(reader.number(object, "angle", 0.53f, {0, 180})), pi);
     } else {
-        shape.radius_m = size("radius", 0.5f, atLeastZero);
+        shape.radius_m = reader.number(object, "radius", 0.5f, atLeastZero);
     }
-
+    shape.twoSided = reader.boolean(object, "twoSided", false);
     read.light.emission = readEmission(reader, object, shape);
     read.light.cone_rad = readCone(reader, object);
-    if (const LocatedJson* value = find(object, "twoSided"))
-        shape.twoSided = reader.boolean(*value, "'twoSided'");
-    if (const LocatedJson* value = find(object, "shadow:enable"))
-        read.light.castsShadow = reader.boolean(*value, "'shadow:enable'");
-    if (const LocatedJson* value = find(object, "rotation"))
-        read.parentFromLight = readRotation(reader, *value);
-    if (const LocatedJson* value = find(object, "translation"))
-        read.parentFromLight[3] = glm::vec4(reader.vector<3>(*value, "'translation'"), 1);
-    if (const LocatedJson* value = find(object, "node")) {
-        read.node = reader.text(*value, "'node'");
-        read.nodeLine = value->line;
-    }
-    if (const LocatedJson* value = find(object, "texture:file")) {
+    read.profile = readShapingProfile(reader, object);
+    if (const LocatedJson* value = member(object, "texture:file")) {
         read.textureFile = reader.text(*value, "'texture:file'");
         read.textureLine = value->line;
     }
+}
+
+void readPlace(const SidecarReader& reader, const LocatedJson& object, SidecarLight& read) {
+    if (const LocatedJson* value = member(object, "rotation"))
+        read.parentFromLight = readRotation(reader, *value);
+    if (const LocatedJson* value = member(object, "translation"))
+        read.parentFromLight[3] = glm::vec4(reader.vector<3>(*value, "'translation'"), 1);
+    if (const LocatedJson* value = member(object, "node")) {
+        read.node = reader.text(*value, "'node'");
+        read.nodeLine = value->line;
+    }
+}
+
+SidecarLight readLight(const SidecarReader& reader, const LocatedJson& object) {
+    reader.expect(object, LocatedJson::Kind::object, "a light");
+    const LightType& type = readType(reader, object);
+    std::vector<std::string_view> known(commonKeys.begin(), commonKeys.end());
+    for (const Keys keys : type.keys) known.insert(known.end(), keys.begin(), keys.end());
+    reader.checkKeys(object, known, type.name);
+
+    SidecarLight read;
+    read.light.shape.shape = type.shape;
+    const LocatedJson* name = member(object, "name");
+    if (!name) reader.fail(object.line, "a light needs a 'name'");
+    read.light.name = reader.text(*name, "'name'");
+    read.light.castsShadow = reader.boolean(object, "shadow:enable", true);
+    switch (type.source) {
+        case Source::shape:
+            readShape(reader, object, read);
+            break;
+        case Source::luminaire:
+            readLuminaire(reader, object, read);
+            break;
+        case Source::sun:
+            readSun(reader, object, read);
+            break;
+    }
+    readPlace(reader, object, read);
     return read;
 }
 
-SidecarNode readNode(const Reader& reader, const LocatedJson::Member& member) {
+SidecarNode readNode(const SidecarReader& reader, const LocatedJson::Member& named) {
     constexpr std::array<std::string_view, 2> keys{"casts", "receives"};
-    const std::string where = fmt::format("node '{}'", member.key);
-    reader.expect(member.value, Kind::object, where);
-    reader.checkKeys(member.value, keys, where);
-    SidecarNode node{member.key, {}, {}, member.line};
-    if (const LocatedJson* casts = find(member.value, "casts"))
+    const std::string where = fmt::format("node '{}'", named.key);
+    reader.expect(named.value, LocatedJson::Kind::object, where);
+    reader.checkKeys(named.value, keys, where);
+    SidecarNode node{named.key, {}, {}, named.line};
+    if (const LocatedJson* casts = member(named.value, "casts"))
         node.casts = reader.boolean(*casts, "'casts'");
-    if (const LocatedJson* receives = find(member.value, "receives"))
+    if (const LocatedJson* receives = member(named.value, "receives"))
         node.receives = reader.boolean(*receives, "'receives'");
     return node;
 }
@@ -281,32 +281,32 @@ SidecarNode readNode(const Reader& reader, const LocatedJson::Member& member) {
 
 Sidecar parseSidecar(std::string_view json, const std::string& fileName) {
     const LocatedJson root = parseLocatedJson(json, fileName);
-    const Reader reader(fileName);
-    reader.expect(root, Kind::object, "the file");
+    const SidecarReader reader(fileName);
+    reader.expect(root, LocatedJson::Kind::object, "the file");
     constexpr std::array<std::string_view, 4> keys{"$schema", "version", "lights", "nodes"};
     reader.checkKeys(root, keys, "the file");
-    const LocatedJson* version = find(root, "version");
+    const LocatedJson* version = member(root, "version");
     if (!version) reader.fail(root.line, "the file needs a \"version\": 1");
     if (reader.number(*version, "'version'") != 1)
         reader.fail(version->line,
                     fmt::format("version {} is not known: this reads version 1", version->number));
-    if (const LocatedJson* schema = find(root, "$schema")) reader.text(*schema, "'$schema'");
+    if (const LocatedJson* schema = member(root, "$schema")) reader.text(*schema, "'$schema'");
 
     Sidecar sidecar{fileName, {}, {}};
-    if (const LocatedJson* lights = find(root, "lights")) {
-        reader.expect(*lights, Kind::array, "'lights'");
+    if (const LocatedJson* lights = member(root, "lights")) {
+        reader.expect(*lights, LocatedJson::Kind::array, "'lights'");
         sidecar.lights.emplace();
         std::set<std::string_view> names;
         for (const LocatedJson& item : lights->items) {
             sidecar.lights->push_back(readLight(reader, item));
-            const LocatedJson& name = *find(item, "name");
+            const LocatedJson& name = *member(item, "name");
             if (!names.insert(name.text).second)
                 reader.fail(name.line, fmt::format("two lights are named '{}'", name.text));
         }
     }
-    if (const LocatedJson* nodes = find(root, "nodes")) {
-        reader.expect(*nodes, Kind::object, "'nodes'");
-        for (const auto& member : nodes->members) sidecar.nodes.push_back(readNode(reader, member));
+    if (const LocatedJson* nodes = member(root, "nodes")) {
+        reader.expect(*nodes, LocatedJson::Kind::object, "'nodes'");
+        for (const auto& named : nodes->members) sidecar.nodes.push_back(readNode(reader, named));
     }
     return sidecar;
 }

@@ -214,7 +214,7 @@ TEST(Sidecar, ErrorsSayWhereAndWhatToDo) {
         {withLight("\"node\": \"\""), f + "4: 'node' must not be empty"},
         {withLight("\"node\": \"a\\u0007\""), f + "4: 'node' must not contain control characters"},
         {"{\"version\": 1, \"lights\": [\n{\"name\": \"a\"}]}",
-         f + "2: a light needs a 'type': one of RectLight, DiskLight, SphereLight, DistantLight"},
+         f + "2: a light needs a 'type': one of RectLight, DiskLight, SphereLight, DistantLight, LuminaireLight, SunLight"},
         {"{\"version\": 1, \"lights\": [\n{\"name\": \"a\",\n\"type\": \"Rectlight\"}]}",
          f + "3: unknown type 'Rectlight' of light; did you mean 'RectLight'?"},
         {"{\"version\": 1, \"lights\": [\n{\"name\": \"a\",\n\"type\": \"DomeLight\"}]}",

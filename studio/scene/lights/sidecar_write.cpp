@@ -41,7 +41,7 @@ std::string_view typeOf(LightShape shape) {
 
 /// Luminance as intensity and colour whose largest part is 1, as a person writes it. Where rounding keeps
 /// their product from being the same float again, all of it stands in the colour.
-void writeEmission(Json& json, const glm::vec3& value) {
+void writeEmission(Json& json, const char* key, const glm::vec3& value) {
     const float largest = std::max({value.r, value.g, value.b});
     glm::vec3 color = largest > 0 ? value / largest : glm::vec3(1);
     for (int channel = 0; channel < 3; ++channel) {
@@ -53,7 +53,7 @@ void writeEmission(Json& json, const glm::vec3& value) {
         }
     }
     const bool exact = color * largest == value;
-    json["intensity"] = exact ? number(largest) : number(1);
+    json[key] = exact ? number(largest) : number(1);
     json["color"] = list(exact ? color : value);
 }
 
@@ -73,13 +73,28 @@ void writeSize(Json& json, const AreaLight& shape) {
     }
 }
 
+void writeShaping(Json& json, const SidecarProfile& profile) {
+    json["shaping:ies:file"] = profile.file;
+    if (profile.angleScale != 0) json["shaping:ies:angleScale"] = number(profile.angleScale);
+    if (profile.normalize) json["shaping:ies:normalize"] = true;
+    if (profile.turn_deg != 0) json["shaping:ies:turn"] = number(profile.turn_deg);
+}
+
 Json write(const SidecarLight& written) {
     const Light& light = written.light;
-    Json json = {{"name", light.name}, {"type", typeOf(light.shape.shape)}};
-    writeSize(json, light.shape);
-    writeEmission(json, light.emission.value);
+    const bool isLuminaire = written.profile && written.profile->isLuminaire;
+    Json json = {{"name", light.name}, {"type", isLuminaire ? "LuminaireLight" : typeOf(light.shape.shape)}};
+    if (isLuminaire) {
+        json["file"] = written.profile->file;
+        if (written.profile->turn_deg != 0) json["turn"] = number(written.profile->turn_deg);
+        writeEmission(json, "multiplier", light.emission.value);
+    } else {
+        writeSize(json, light.shape);
+        writeEmission(json, "intensity", light.emission.value);
+        if (written.profile) writeShaping(json, *written.profile);
+    }
     if (!written.textureFile.empty()) json["texture:file"] = written.textureFile;
-    if (light.shape.twoSided) json["twoSided"] = true;
+    if (light.shape.twoSided && !isLuminaire) json["twoSided"] = true;
     if (!light.castsShadow) json["shadow:enable"] = false;
     if (light.cone_rad) {
         const auto [inner_rad, outer_rad] = *light.cone_rad;

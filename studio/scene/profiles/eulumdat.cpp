@@ -32,6 +32,7 @@ class EulumdatReader {
         : fileName_(fileName), lines_(linesOf(text)) {
         profile_.fileName = fileName;
         profile_.version = "EULUMDAT";
+        profile_.text = text;
     }
 
     LightProfile read() {

@@ -108,6 +108,19 @@ float CandelaGrid::largest() const {
     return *std::ranges::max_element(candela);
 }
 
+bool CandelaGrid::shinesUp() const {
+    for (std::size_t h = 0; h < horizontals_deg.size(); ++h) {
+        for (std::size_t v = 0; v < verticals_deg.size(); ++v) {
+            const double vertical = verticals_deg[v];
+            const bool up = type == Type::C   ? vertical > 90
+                            : type == Type::B ? std::abs(vertical) > 90
+                                              : vertical > 0;
+            if (up && candela[h * verticals_deg.size() + v] > 0) return true;
+        }
+    }
+    return false;
+}
+
 double CandelaGrid::integral() const {
     // The solid angle is sin(gamma) dgamma dC, cos H dH dV and cos V dV dH.
     std::vector<double> v, h;

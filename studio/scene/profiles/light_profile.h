@@ -41,6 +41,9 @@ struct CandelaGrid {
 
     float largest() const;
 
+    /// Whether any light leaves above the horizontal plane, that of gamma = 90.
+    bool shinesUp() const;
+
     /// Lumens: the integral over the sphere of what at() gives, in closed form.
     double integral() const;
 
@@ -68,6 +71,7 @@ struct LightProfile {
     /// By what candela are multiplied where the luminaire's -Z is `tilt_deg` off straight down.
     double tiltFactor(double tilt_deg) const;
 
+    std::string text;                   ///< the file's, for whoever saves the light
     std::vector<std::string> warnings;  ///< each names file and line
 };
 

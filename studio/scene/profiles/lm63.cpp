@@ -29,8 +29,9 @@ std::string upper(std::string_view text) {
 class Lm63Reader {
   public:
     Lm63Reader(std::string_view text, const std::string& fileName)
-        : fileName_(fileName), lines_(linesOf(text)) {
+        : fileName_(fileName), text_(text), lines_(linesOf(text)) {
         profile_.fileName = fileName;
+        profile_.text = text;
     }
 
     LightProfile read(const TiltText& tiltText) {
@@ -91,6 +92,10 @@ class Lm63Reader {
         const std::string name(value);
         const std::string other = tiltText(name, int(line + 1));
         const std::vector<std::string_view> otherLines = linesOf(other);
+        // What stands in another file is in this one from now on.
+        const std::size_t begin = std::size_t(text.data() - text_.data());
+        profile_.text = fmt::format("{}TILT=INCLUDE\n{}\n{}", text_.substr(0, begin), other,
+                                    text_.substr(begin + text.size()));
         NumberStream otherNumbers(name, otherLines, 0, Separators::blanksAndCommas);
         readTiltFactors(otherNumbers);
     }
@@ -191,6 +196,7 @@ class Lm63Reader {
     double lowestHorizontal() const { return profile_.grid.type == CandelaGrid::Type::A ? -180 : -90; }
 
     const std::string& fileName_;
+    std::string_view text_;
     std::vector<std::string_view> lines_;
     LightProfile profile_;
     int year_ = 1986;

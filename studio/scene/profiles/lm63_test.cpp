@@ -214,6 +214,7 @@ TEST(Lm63, TiltFactorsAreTold) {
         return std::string("1\n2\n0, 90\n1, 0.5\n");
     });
     EXPECT_NEAR(other.tiltFactor(45), 0.75, 1e-12);
+    EXPECT_NEAR(readLm63(other.text).tiltFactor(45), 0.75, 1e-12);  // stands on its own
 }
 
 TEST(Lm63, OpeningsByTheVersionsOwnTables) {

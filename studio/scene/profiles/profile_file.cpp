@@ -33,11 +33,11 @@ bool isProfileName(const fs::path& file) {
     return extension == ".ies" || extension == ".ldt";
 }
 
-LightProfile readProfile(const fs::path& file) {
+LightProfile readProfile(const fs::path& file, const std::string& named) {
     if (!isProfileName(file))
         throw InputError(fmt::format(
             "'{}' is not a profile that can be read: only LM-63, .ies, and EULUMDAT, .ldt", file.string()));
-    const std::string text = readText(file, "profile");
+    const std::string text = readText(file, named);
     if (extensionOf(file) == ".ldt") return parseEulumdat(text, file.string());
     return parseLm63(text, file.string(), [&](const std::string& name, int line) {
         const std::string where = fmt::format("{}:{}", file.string(), line);

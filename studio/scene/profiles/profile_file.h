@@ -21,8 +21,9 @@ inline constexpr std::size_t maxProfileValues = 1u << 22;
 bool isProfileName(const std::filesystem::path& file);
 
 /// Reads a profile. Throws InputError "FILE:LINE: PROBLEM" for whatever is missing, contradicts itself or has
-/// no meaning; what is merely odd is in LightProfile::warnings.
-LightProfile readProfile(const std::filesystem::path& file);
+/// no meaning; what is merely odd is in LightProfile::warnings. `named` is where the file is named, for the
+/// message that it is missing.
+LightProfile readProfile(const std::filesystem::path& file, const std::string& named = "profile");
 
 /// The text of another file that an LM-63 file names in its TILT line; throws InputError.
 using TiltText = std::function<std::string(const std::string& name, int line)>;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "studio/scene/profiles/light_profile.h"
+#include "studio/scene/scene.h"
+
+namespace penumbra::studio {
+
+/// Makes `light` the luminaire that the profile is of: its shape, size and candela, `emission` of each. Its
+/// place stays. Returns what is not as in the file; empty: nothing.
+std::string makeLuminaire(std::shared_ptr<const LightProfile> profile, float turn_rad,
+                          const glm::vec3& emission, Light& light);
+
+/// Puts a light of any kind there; a luminaire gives what its file says of its tilt.
+void place(Light& light, const glm::mat4& worldFromLight);
+
+}  // namespace penumbra::studio
