@@ -100,6 +100,12 @@ std::string renderCommand(Session& session, const fs::path& folder) {
     } else if (options.lightsFile) {
         line += " --lights " + shellWord(fs::absolute(*options.lightsFile, error).string());
     }
+    if (options.sun && !document.lights().edited()) {
+        line += " --sun=" + shellWord(options.sun->text);
+        if (options.sun->setting.north_deg != 0)
+            line += fmt::format(" --north {}", options.sun->setting.north_deg);
+        if (!options.sun->setting.refraction) line += " --no-refraction";
+    }
     if (options.scene) line += fmt::format(" --scene {}", *options.scene);
     if (options.animation != 0) line += fmt::format(" --animation {}", options.animation);
     if (document.time_s() != 0) line += fmt::format(" --time {}", document.time_s());

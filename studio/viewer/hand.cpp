@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studio/viewer/candela_web.h"
+
 #include <GLFW/glfw3.h>
 
 namespace penumbra::studio::viewer {
@@ -187,6 +189,14 @@ void Hand::draw(const CanvasPlace& place, const Session& session, const Desk& de
         }
         if (const auto middle = projection.pixelOf(placeOf(lights[i].shape, document.bounds()))) {
             list.AddCircleFilled(screen(*middle), 4 * scale, color);
+        }
+    }
+    if (choices.light < lights.size() && lights[choices.light].profile) {
+        for (const auto& line : candelaWeb(lights[choices.light], document.bounds())) {
+            for (std::size_t k = 1; k < line.size(); ++k) {
+                const auto a = projection.pixelOf(line[k - 1]), b = projection.pixelOf(line[k]);
+                if (a && b) list.AddLine(screen(*a), screen(*b), IM_COL32(140, 205, 255, 200), scale);
+            }
         }
     }
     if (choices.light < lights.size()) {

@@ -15,6 +15,7 @@
 #include "studio/reference/content_hash.h"
 #include "studio/scene/builtin/placing.h"
 #include "studio/scene/gltf/lights.h"
+#include "studio/scene/profiles/luminaire.h"
 
 namespace penumbra::studio::viewer {
 namespace {
@@ -46,6 +47,10 @@ void setUnit(Light& light) {
                                                                      : Emission::Unit::candela;
 }
 
+std::string extensionOf(const LightProfile& profile) {
+    return profile.version == "EULUMDAT" ? ".ldt" : ".ies";
+}
+
 /// "lamp", or "lamp 2" where that is taken.
 void makeNamesUnique(std::vector<Light>& lights) {
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -66,22 +71,45 @@ std::vector<Light> throughText(const std::vector<SidecarLight>& lights) {
     std::vector<Light> result;
     for (std::size_t i = 0; i < lights.size(); ++i) {
         Light light = read.lights->at(i).light;
-        light.shape.worldFromLight = std::bit_cast<Mat4>(gltf::rigidPart(read.lights->at(i).parentFromLight));
         light.texture = lights[i].light.texture;
+        light.profile = lights[i].light.profile;
+        if (light.profile && light.profile->isLuminaire) light.shape = lights[i].light.shape;
+        place(light, gltf::rigidPart(read.lights->at(i).parentFromLight));
         result.push_back(std::move(light));
+    }
+    return result;
+}
+
+/// A light as a file states it, but for the names of the files that it needs.
+SidecarLight stated(const Light& light) {
+    SidecarLight result{.light = light,
+                        .parentFromLight = std::bit_cast<glm::mat4>(light.shape.worldFromLight)};
+    if (light.profile) {
+        const ProfiledEmission& profile = *light.profile;
+        result.profile = {.file = "profile" + extensionOf(*profile.profile),
+                          .isLuminaire = profile.isLuminaire,
+                          .angleScale = profile.angleScale,
+                          .normalize = profile.factor != 1,
+                          .turn_deg = glm::degrees(profile.turn_rad)};
     }
     return result;
 }
 
 struct LightFiles {
     std::string text;
-    std::vector<std::pair<std::string, Image>> pictures;  ///< by file name
+    std::vector<std::pair<std::string, std::string>> profiles;  ///< by file name
+    std::vector<std::pair<std::string, Image>> pictures;        ///< by file name
 };
 
 LightFiles filesOf(const Scene& scene, std::vector<SidecarLight> lights, const std::string& stem,
                    std::vector<SidecarNode> nodes) {
     LightFiles files;
     for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (lights[i].profile) {
+            const LightProfile& profile = *lights[i].light.profile->profile;
+            lights[i].profile->file = fmt::format("{}.light{}{}", stem, i + 1, extensionOf(profile));
+            files.profiles.emplace_back(lights[i].profile->file, profile.text);
+        }
         const int texture = lights[i].light.texture;
         if (texture < 0) continue;
         const Picture& picture = scene.pictures[std::size_t(scene.textures[std::size_t(texture)].picture)];
@@ -102,6 +130,7 @@ std::vector<SidecarNode> nodesOf(const fs::path& sidecar) {
 
 void write(const LightFiles& files, const fs::path& file) {
     for (const auto& [name, picture] : files.pictures) writePng(file.parent_path() / name, picture);
+    for (const auto& [name, text] : files.profiles) writeFileAtomically(file.parent_path() / name, text);
     writeFileAtomically(file, files.text);
 }
 
@@ -133,6 +162,7 @@ void changeShape(Light& light, LightShape shape) {
     area.radius_m = shape == LightShape::disk || shape == LightShape::sphere ? radius_m : 0;
     area.angle_rad = shape == LightShape::distant ? 2 * std::atan(radius_m / distance_m) : 0;
     if (shape != LightShape::rect) light.texture = -1;
+    light.profile.reset();
     if (shape == LightShape::distant) light.cone_rad.reset();
     if (shape == LightShape::sphere || shape == LightShape::distant) area.twoSided = false;
     // Candela at a distance are lux of a distant light.
@@ -145,6 +175,7 @@ void changeShape(Light& light, LightShape shape) {
 }
 
 void setSize(Light& light, float AreaLight::*size, float value) {
+    if (light.profile && light.profile->isLuminaire) return;  // its size is its file's
     const float before = effect(light.shape);
     light.shape.*size = value;
     const float now = effect(light.shape);
@@ -160,8 +191,7 @@ void LightBook::edit(std::vector<Light> lights) {
     makeNamesUnique(lights);
     written_.clear();
     for (const Light& light : lights) {
-        written_.push_back(
-            {.light = light, .parentFromLight = std::bit_cast<glm::mat4>(light.shape.worldFromLight)});
+        written_.push_back(stated(light));
     }
     edited_ = throughText(written_);
     unsaved_ = true;
@@ -186,6 +216,7 @@ fs::path LightBook::snapshot(const Scene& scene, const fs::path& folder, const f
     ContentHasher hasher;
     hasher.addArray(files.text);
     for (const auto& [name, picture] : files.pictures) hasher.addArray(picture.values);
+    for (const auto& [name, text] : files.profiles) hasher.addArray(text);
     const std::string stem = hasher.hash().hex();
     files = filesOf(scene, written_, stem, nodes);
     const fs::path file = folder / (stem + ".lights.json");

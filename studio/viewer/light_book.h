@@ -22,7 +22,7 @@ Light newLight(const Bounds& bounds, std::size_t number);
 void changeShape(Light& light, LightShape shape);
 
 /// Sets one of the light's sizes. Where it becomes or ceases to be zero the unit of emission changes with it,
-/// and the illuminance that the light gives from afar stays.
+/// and the illuminance that the light gives from afar stays. A luminaire keeps the size that its file says.
 void setSize(Light& light, float AreaLight::*size, float value);
 
 class LightBook {

@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "studio/errors.h"
+#include "studio/scene/profiles/luminaire.h"
+#include "studio/scene/profiles/profile_file.h"
 
 #include <GLFW/glfw3.h>
 
@@ -133,9 +135,22 @@ void Viewer::open(const std::string& nameOrPath) {
     });
 }
 
+void Viewer::loadProfile(const std::string& file) {
+    attempt([&] {
+        std::vector<Light> lights = session_.document().moment().lights;
+        const std::size_t chosen = session_.choices().light;
+        if (chosen >= lights.size()) throw InputError("there is no light to be that luminaire: add one");
+        const std::string note = makeLuminaire(std::make_shared<const LightProfile>(readProfile(file)), 0,
+                                               glm::vec3(1), lights[chosen]);
+        session_.editLights(std::move(lights));
+        say(note.empty() ? "loaded " + file : note);
+    });
+}
+
 void Viewer::takeFiles() {
     const std::vector<std::filesystem::path> files = window_.takeDroppedFiles();
-    if (!files.empty()) open(files.front().string());
+    if (files.empty()) return;
+    isProfileName(files.front()) ? loadProfile(files.front().string()) : open(files.front().string());
 }
 
 void Viewer::advanceTime() {
@@ -203,6 +218,7 @@ std::filesystem::path Viewer::freshPictureName() const {
 void Viewer::carryOut(const Requests& requests) {
     if (requests.quit) window_.requestClose();
     if (requests.open) open(*requests.open);
+    if (requests.profile) loadProfile(*requests.profile);
     if (requests.frameAll) {
         session_.freeCamera().frame(session_.document().bounds(), place_.size.x / place_.size.y);
         session_.changedView();

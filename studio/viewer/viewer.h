@@ -49,6 +49,8 @@ class Viewer {
 
   private:
     void takeFiles();
+    /// Makes the light that is chosen the luminaire of this file.
+    void loadProfile(const std::string& file);
     void takeKeys();
     void chooseByKey(int key, int mods);
     void nextLight();

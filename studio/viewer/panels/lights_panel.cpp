@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+#include "studio/scene/profiles/light_profile.h"
 #include "studio/viewer/panels/panels.h"
 
 namespace penumbra::studio::viewer {
@@ -91,6 +92,24 @@ bool editLight(Ui& ui, Light& light) {
     return changed;
 }
 
+/// What the light is by its maker's file, and a file to make it so.
+bool editProfile(Ui& ui, Light& light, Desk& desk, Requests& requests) {
+    bool changed = false;
+    if (light.profile) {
+        ui.note(light.profile->profile->fileName);
+        float turn_deg = glm::degrees(light.profile->turn_rad);
+        if (ui.drag("turn of C0 (deg)", turn_deg, 1, -360, 360)) {
+            light.profile->turn_rad = glm::radians(turn_deg);
+            changed = true;
+        }
+    }
+    ui.text("profile", desk.profilePath);
+    ui.tip("A luminaire's file, .ies or .ldt: the light becomes that luminaire. Files can be dropped, too.");
+    ImGui::SameLine();
+    if (ui.button("Load")) requests.profile = desk.profilePath;
+    return changed;
+}
+
 void chooseTechniqueOf(Ui& ui, Session& session, const Light& light) {
     std::vector<std::string> names = techniqueChoices();
     names.insert(names.begin(), "(as set above)");
@@ -157,7 +176,8 @@ void drawLightsPanel(Ui& ui, Session& session, Desk& desk, Requests& requests) {
         ImGui::PushItemWidth(150 * ui.scale());
         const std::string nameBefore = lights[selected].name;
         chooseTechniqueOf(ui, session, lights[selected]);
-        if (editLight(ui, lights[selected])) {
+        const bool otherwise = editLight(ui, lights[selected]);
+        if (editProfile(ui, lights[selected], desk, requests) || otherwise) {
             auto& own = session.choices().techniqueOfLight;
             session.editLights(lights);
             // A technique of its own follows a light to its new name.

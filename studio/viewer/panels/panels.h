@@ -26,6 +26,7 @@ struct Desk {
     int bufferLayer = 0;
     bool bufferStretched = true;
     std::string presetName;
+    std::string profilePath;  ///< of a luminaire
 };
 
 /// The library's techniques and the reference, in the order of the keys 1 to 9 and 0.

@@ -18,6 +18,7 @@ namespace penumbra::studio::viewer {
 /// Asked for in a panel or by a key, done when all panels are drawn.
 struct Requests {
     std::optional<std::string> open;
+    std::optional<std::string> profile;  ///< a luminaire's file, for the light that is chosen
     bool saveLights = false, copyCommand = false, savePicture = false, saveCanvas = false, record = false,
          stopRecording = false, frameAll = false, resetCamera = false, reloadShaders = false, quit = false;
 };
