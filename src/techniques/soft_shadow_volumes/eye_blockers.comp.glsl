@@ -19,8 +19,6 @@ vec3 cornerLight(uint index) {
     return (lightFromMesh * vec4(positions[i], positions[i + 1u], positions[i + 2u], 1.0)).xyz;
 }
 
-bool isBefore(vec3 a, vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
-
 // The same for both faces of an edge, so that the eye is never on both sides of it, or on neither.
 bool isLeft(vec3 a, vec3 b, vec4 point) {
     return isBefore(a, b) ? sideOfEdge(a, b, point) >= 0.0 : !(sideOfEdge(b, a, point) >= 0.0);

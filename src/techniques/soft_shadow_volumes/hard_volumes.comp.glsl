@@ -13,7 +13,8 @@ layout(binding = 0) uniform writeonly image2D visibility;
 // The light's centre is above the surface's horizon, and the surface on the side to which the light emits.
 bool isFacing(Receiver receiver) {
     vec3 towardsLight = volume.lightKind.x == shapeDistant ? vec3(0.0, 0.0, 1.0) : -receiver.posLight;
-    return dot(receiver.normalLight, towardsLight) > 0.0 && (volume.lightKind.y == 0 || receiver.posLight.z < 0.0);
+    return dot(receiver.normalLight, towardsLight) > 0.0 &&
+           (volume.lightKind.y == 0 || receiver.posLight.z < volume.lightSize.z);
 }
 
 void main() {

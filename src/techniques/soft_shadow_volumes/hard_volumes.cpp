@@ -26,7 +26,7 @@ void HardVolumes::describe(ParameterVisitor& visitor) {
 void HardVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     checkInputs(inputs, out);
     alphaMaskWarning_.check(inputs.casters);
-    VolumeFrame frame(inputs, 1);
+    VolumeFrame frame(inputs, 1, VolumeFrame::Count::drawn);
     if (openMeshes_ == int(OpenMeshes::capped)) frame.capHoles(device_);
     constants_.write(frame.constants);
     view_.bind(inputs.view, frame.lightFromWorld);

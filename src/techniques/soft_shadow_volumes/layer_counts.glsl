@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How many layers of surface lie before each point of the light, as a receiver sees them: the edges between the light's
-// centre and a point change the count (README.md, "Counting layers"). Requires light_area.glsl and light_points.glsl.
+// centre and a point change the count (README.md, "Counting layers"). Requires light_points.glsl and seen_edges.glsl.
 //
 // SAMPLES: the number of points of the light at which layers are counted.
 #ifndef SAMPLES
@@ -73,7 +73,8 @@ int edgesCounted = 0;
 
 float directionOf(vec2 d) { return fract(atan(d.y, d.x) / lightTau); }
 
-const float directionRounding = 1e-4;  // turns; a hundred times what atan is off
+const float directionRounding = 5e-4;  // turns; many times what is lost in seeing an end that is clear of the centre
+const float clearOfCenter = 1e-2;      // of the light's half side: nearer to its centre, ends may lie in any direction
 
 // The first point whose direction is not before this one; SAMPLES becomes 0, since directions go round.
 int firstSampleFrom(float direction) {
@@ -88,49 +89,42 @@ int firstSampleFrom(float direction) {
     return low % SAMPLES;
 }
 
-// An edge as a receiver sees it.
-struct SeenEdge {
-    vec2 a, b;  // its ends in unit space
-    float turn;  // around the light's centre from a to b
-    int change;  // in the number of layers from the centre to a point beyond
-};
-
-// False where it hides nothing from the receiver: of the edges that matter to a tile, few do to each of its receivers.
-bool seeEdge(LightFrame frame, Receiver receiver, LightEdge edge, out SeenEdge seen) {
+// By how much the number of layers changes from the light's centre to a point beyond the edge.
+int changeBeyond(LightFrame frame, Receiver receiver, LightEdge edge, SeenEdge seen) {
     vec4 p = vec4(receiver.posLight, 1.0);
     float weight = sign(dot(edge.planes[0], p)) + sign(dot(edge.planes[1], p));
-    vec3 a, b;
-    bool isBefore = edgeBeforeLight(frame, receiver.posLight, edge.aLight, edge.bLight, a, b);
-    seen.a = a.xy / a.z;
-    seen.b = b.xy / b.z;
-    seen.turn = seen.a.x * seen.b.y - seen.a.y * seen.b.x;
-    seen.change = int(sign(seen.turn) * weight * frame.handedness);
-    return isBefore && seen.change != 0;
+    return int((seen.hasLeft ? weight : -weight) * frame.handedness);
+}
+
+// False where it hides nothing from the receiver: of the edges that matter to a tile, few do to each of its receivers.
+bool hidesLight(LightFrame frame, Receiver receiver, LightEdge edge, out SeenEdge seen) {
+    return seeEdge(frame, receiver.posLight, edge.aLight, edge.bLight, seen) &&
+           changeBeyond(frame, receiver, edge, seen) != 0;
 }
 
 // Adds what an edge changes on the way from the light's centre to each of its points. Returns how many points it looked
 // at.
-uint addEdge(LightFrame frame, SeenEdge edge) {
-    vec2 a = edge.a, b = edge.b;
-    leastChange = min(leastChange, abs(edge.change));
-    meanChangeFixed += edge.change * int(shareBeyond(a, b) * fixedOne + 0.5);
+uint addEdge(LightFrame frame, SeenEdge edge, int change) {
+    vec2 from, to;
+    if (!partBeforeLight(frame, edge, from, to)) return 0u;
+    leastChange = min(leastChange, abs(change));
+    meanChangeFixed += change * int(shareBeyond(from, to) * fixedOne + 0.5);
     // Only points in the directions between the edge's ends can lie behind it; they follow each other in the list, unless
     // they have been put elsewhere.
-    float first = directionOf(edge.turn > 0.0 ? a : b), last = directionOf(edge.turn > 0.0 ? b : a);
-    float span = isSliver ? 1.0 : fract(last - first) + 2.0 * directionRounding;
+    float first = directionOf(edge.hasLeft ? from : to), last = directionOf(edge.hasLeft ? to : from);
+    bool isClear = !isSliver && min(dot(from, from), dot(to, to)) > clearOfCenter * clearOfCenter;
+    float span = isClear ? fract(last - first) + 2.0 * directionRounding : 1.0;
     first = fract(first - directionRounding);
     int start = firstSampleFrom(first);
     int n = 0;
     for (; n < SAMPLES; ++n) {
         int i = start + n < SAMPLES ? start + n : start + n - SAMPLES;
         if (fract(samples[i].w - first) > span) break;
-        changes[i] += isCrossed(a, b, edge.turn, samplePlace(frame, i)) ? edge.change : 0;
+        changes[i] += isCrossed(frame, edge, samplePlace(frame, i)) ? change : 0;
     }
     ++edgesCounted;
     return uint(n);
 }
-
-bool isBefore(vec3 a, vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 
 // The plane through the receiver and two corners of a face, turned the same way whichever of the two comes first.
 vec3 sidePlane(vec3 a, vec3 b) {
@@ -188,20 +182,18 @@ bool isHidden(SeenFace face, vec2 s) {
     return atEnd * face.atReceiver < 0.0 && isInFace(face, s);
 }
 
-// Counts a face that reaches into a spherical light at each point, in place of what the count at the light's centre has
-// of it. Returns how many points it looked at.
+// Counts a face that reaches into a spherical light at each point: the count at the light's centre leaves it out. Returns
+// how many points it looked at.
 uint addFace(LightFrame frame, Receiver receiver, LightEdge record) {
     SeenFace face = seeFace(frame, receiver.posLight, record);
-    bool isBetween = face.atReceiver * record.planes[1].w < 0.0;
-    int counted = !frame.isInside && isBetween && isInFace(face, vec2(0.0)) ? 1 : 0;
     int hidden = 0;
     for (int i = 0; i < SAMPLES; ++i) {
         int hides = isHidden(face, samplePlace(frame, i)) ? 1 : 0;
-        changes[i] += hides - counted;
+        changes[i] += hides;
         hidden += hides;
     }
-    meanChangeFixed += hidden * int(fixedOne) / SAMPLES - counted * int(fixedOne);
+    meanChangeFixed += hidden * int(fixedOne) / SAMPLES;
     if (hidden > 0 && hidden < SAMPLES) leastChange = 1;
-    if (hidden != SAMPLES * counted) ++edgesCounted;
+    if (hidden > 0) ++edgesCounted;
     return uint(SAMPLES);
 }

@@ -7,8 +7,6 @@ vec3 visibilityOf(LightFrame frame, int atCenter) {
     bool isTextured = volume.lightKind.w == 1 && !isSliver;
     bool isCut = horizonSide(frame) == 0;
     if (edgesCounted == 0) return vec3(atCenter <= 0 ? 1.0 : 0.0);
-    // No count is negative: if one were, the one at the centre, which was drawn, would be wrong by that much.
-    for (int i = 0; i < SAMPLES; ++i) atCenter = max(atCenter, -changes[i]);
     for (int i = 0; i < SAMPLES; ++i) {
         vec2 s = samplePlace(frame, i);
         if (isCut && !isInView(frame, s)) continue;

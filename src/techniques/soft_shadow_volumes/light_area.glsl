@@ -84,31 +84,6 @@ int horizonSide(LightFrame frame) {
 
 bool isAboveHorizon(LightFrame frame, vec2 s) { return dot(frame.horizon, vec3(s, 1.0)) > 0.0; }
 
-const float nearestBlocker = 1e-6;  // of the distance to the light: blockers nearer than this are the surface itself
-
-// The part of an edge that can hide the light, in unit space, not yet divided by z. False if there is none. w: as of
-// LightEdge.
-bool edgeBeforeLight(LightFrame frame, vec3 posLight, vec4 aLight, vec4 bLight, out vec3 a, out vec3 b) {
-    vec3 fromA = aLight.xyz - posLight, fromB = bLight.xyz - posLight;
-    a = vec3(dot(frame.x, fromA), dot(frame.y, fromA), dot(frame.z, fromA));
-    b = vec3(dot(frame.x, fromB), dot(frame.y, fromB), dot(frame.z, fromB));
-    // Where edges have been cut at the light's plane they end in it, without rounding.
-    if (isFlatLight() && aLight.z == 0.0) a.z = 1.0;
-    if (isFlatLight() && bLight.z == 0.0) b.z = 1.0;
-    bool isBehind = aLight.w == 0.0 ? min(a.z, b.z) >= 1.0 : aLight.w * posLight.z < 0.0;
-    if (max(a.z, b.z) <= nearestBlocker || (!frame.isEndless && isBehind)) return false;
-    // Off the light to one side?
-    if (a.x > a.z && b.x > b.z || a.x < -a.z && b.x < -b.z || a.y > a.z && b.y > b.z || a.y < -a.z && b.y < -b.z)
-        return false;
-    if (a.z < nearestBlocker) a = mix(a, b, (nearestBlocker - a.z) / (b.z - a.z));
-    if (b.z < nearestBlocker) b = mix(b, a, (nearestBlocker - b.z) / (a.z - b.z));
-    if (!frame.isEndless) {
-        if (a.z > 1.0) a = mix(a, b, (1.0 - a.z) / (b.z - a.z));
-        if (b.z > 1.0) b = mix(b, a, (1.0 - b.z) / (a.z - b.z));
-    }
-    return true;
-}
-
 // The area of the unit square (or disk) in the angle from direction `a` to `b`, the smaller of the two, as a share of
 // the whole: the first lookup of the thesis (figures 12 a and 14 a), in closed form. Within each of the square's four
 // sides the area grows with the tangent.
@@ -124,34 +99,24 @@ float sectorShare(vec2 a, vec2 b, float turn) {
     return 0.25 * min(area, 4.0 - area);
 }
 
-// The share of the light that lies beyond the segment from `a` to `b` (unit space, divided by z) as seen from the
-// light's centre: the angle's area less the triangle's (figures 12 c and 14 c), for the part inside the light.
+// The share of the light that lies beyond the segment from `a` to `b`, which is within the square around the light, as seen
+// from the light's centre: the angle's area less the triangle's (figures 12 c and 14 c).
 float shareBeyond(vec2 a, vec2 b) {
-    vec2 along = b - a;
-    float begin = 0.0, end = 1.0;
-    if (isSquareLight()) {
-        // Liang and Barsky 1984.
-        for (int axis = 0; axis < 2; ++axis) {
-            if (along[axis] == 0.0) {
-                if (abs(a[axis]) >= 1.0) return 0.0;
-                continue;
-            }
-            float t0 = (-1.0 - a[axis]) / along[axis], t1 = (1.0 - a[axis]) / along[axis];
-            begin = max(begin, min(t0, t1));
-            end = min(end, max(t0, t1));
-        }
-    } else {
+    vec2 from = a, to = b;
+    if (!isSquareLight()) {
+        // The part in the disk.
+        vec2 along = b - a;
         float square = dot(along, along);
         if (square == 0.0) return 0.0;
         float nearest = -dot(a, along) / square;
         vec2 foot = a + nearest * along;
         float half2 = (1.0 - dot(foot, foot)) / square;
         if (half2 <= 0.0) return 0.0;
-        begin = max(begin, nearest - sqrt(half2));
-        end = min(end, nearest + sqrt(half2));
+        float begin = max(0.0, nearest - sqrt(half2)), end = min(1.0, nearest + sqrt(half2));
+        if (begin >= end) return 0.0;
+        from = a + begin * along;
+        to = a + end * along;
     }
-    if (begin >= end) return 0.0;
-    vec2 from = a + begin * along, to = a + end * along;
     float turn = from.x * to.y - from.y * to.x;
     float triangle = 0.5 * abs(turn) / (isSquareLight() ? 4.0 : 0.5 * lightTau);
     return max(sectorShare(from, to, turn) - triangle, 0.0);

@@ -10,6 +10,7 @@
 layout(local_size_x = 256) in;
 
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
+#include "src/techniques/soft_shadow_volumes/mesh_faces.glsl"
 #include "src/techniques/soft_shadow_volumes/gathering.glsl"
 
 layout(location = 4) uniform uint triangleCount;
@@ -31,7 +32,7 @@ void gatherCut(vec3 corners[3], vec4 plane, float side) {
     // Beside the light?
     vec2 low = min(from.xy, to.xy), high = max(from.xy, to.xy), size = volume.lightSize.xy;
     if (any(greaterThan(low, size)) || any(lessThan(high, -size))) return;
-    gather(LightEdge(vec4(from, side), vec4(to, side), vec4[2](plane, vec4(0.0))));
+    gatherEdge(vec4(from, side), vec4(to, side), vec4[2](plane, vec4(0.0)));
 }
 
 void main() {
@@ -48,6 +49,7 @@ void main() {
                              vec4[2](vec4(corners[2], 0.0), plane)));
         return;
     }
+    if (isInLightPlane(2u * triangle)) return;
     gatherCut(corners, plane, -1.0);
     if (volume.lightKind.y == 0) gatherCut(corners, plane, 1.0);
 }

@@ -4,6 +4,7 @@
 layout(local_size_x = 256) in;
 
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
+#include "src/techniques/soft_shadow_volumes/mesh_faces.glsl"
 #include "src/techniques/soft_shadow_volumes/gathering.glsl"
 
 struct Edge { uint a, b, firstFace, faceCount; };
@@ -13,11 +14,6 @@ layout(std430, binding = 4) readonly buffer EdgeFaces { uint edgeFaces[]; };
 
 layout(location = 4) uniform uint edgeCount;
 layout(location = 5) uniform bool cutsLight;  // the mesh may cut through the light (see soft_cuts.comp.glsl)
-
-// Faces that reach into a sphere are looked at by themselves: to edges they are missing.
-bool isMissing(uint face) {
-    return cutsLight && volume.lightKind.x == shapeSphere && mayReachIntoSphere(face);
-}
 
 // x: what the light's centre sees, y: how far the light's other points can be from that.
 vec2 seenByLight(vec4 plane) {
@@ -34,7 +30,7 @@ void gatherSide(vec3 a, vec3 b, vec4 planes[2], float side) {
     bool hasA = side * a.z > 0.0, hasB = side * b.z > 0.0;
     if (!hasA && !hasB) return;
     vec3 from = hasA ? a : cutPoint(a, b), to = hasB ? b : cutPoint(a, b);
-    gather(LightEdge(vec4(from, 0.0), vec4(to, 0.0), planes));
+    gatherEdge(vec4(from, 0.0), vec4(to, 0.0), planes);
 }
 
 void main() {
@@ -51,7 +47,7 @@ void main() {
         for (uint side = 0u; side < 2u; ++side) {
             bool exists = i + side < edge.faceCount;
             uint face = exists ? edgeFaces[edge.firstFace + i + side] : 0u;
-            exists = exists && !isMissing(face);
+            exists = exists && !(cutsLight && isMissing(face));
             planes[side] = exists ? facePlane(face) : vec4(0.0);
             vec2 seen = seenByLight(planes[side]);
             isSure = isSure && (abs(seen.x) > 1.001 * seen.y || !exists);
@@ -62,7 +58,7 @@ void main() {
             gatherSide(a, b, planes, -1.0);
             if (!isOneSided) gatherSide(a, b, planes, 1.0);
         } else {
-            gather(LightEdge(vec4(a, 0.0), vec4(b, 0.0), planes));
+            gatherEdge(vec4(a, 0.0), vec4(b, 0.0), planes);
         }
     }
 }

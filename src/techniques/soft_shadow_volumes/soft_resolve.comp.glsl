@@ -14,6 +14,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/soft_shadow_volumes/lifted_receiver.glsl"
 #include "src/techniques/soft_shadow_volumes/light_area.glsl"
 #include "src/techniques/soft_shadow_volumes/light_points.glsl"
+#include "src/techniques/soft_shadow_volumes/seen_edges.glsl"
 #include "src/techniques/soft_shadow_volumes/tile_shaft.glsl"
 #include "src/techniques/soft_shadow_volumes/layer_counts.glsl"
 #include "src/techniques/soft_shadow_volumes/layer_visibility.glsl"
@@ -25,9 +26,10 @@ layout(std430, binding = 3) readonly buffer Lists { uint lists[]; };
 layout(std430, binding = 6) buffer States { int states[]; };
 // The arguments of each round's indirect dispatch, then two lists of tiles: those of this round, and of the next.
 layout(std430, binding = 7) buffer Rounds { uint rounds[]; };
-layout(binding = 3) uniform sampler2D volumeCounts;
+layout(binding = 3) uniform isampler2D centerCounts;
 layout(binding = 0) uniform writeonly image2D visibility;
 layout(binding = 1, r32f) uniform writeonly image2D edgeCounts;
+layout(binding = 2, r32f) uniform writeonly image2D shownCounts;
 
 layout(location = 0) uniform uint firstTile;  // of the band that is worked on
 layout(location = 1) uniform uint round_;
@@ -105,7 +107,7 @@ uint addMattering(LightFrame frame, Receiver receiver, bool seesLight, uint coun
         uint bits = 0u;
         for (uint i = 0u; i < min(32u, count - first); ++i) {
             LightEdge listed = lightEdges[mattering[first + i]];
-            bool isSeen = listed.aLight.w == wholeFace || (!frame.isInside && seeEdge(frame, receiver, listed, edge));
+            bool isSeen = listed.aLight.w == wholeFace || (!frame.isInside && hidesLight(frame, receiver, listed, edge));
             if (isSeen) bits |= 1u << i;
         }
         for (; bits != 0u; bits &= bits - 1u) {
@@ -113,8 +115,8 @@ uint addMattering(LightFrame frame, Receiver receiver, bool seesLight, uint coun
             if (listed.aLight.w == wholeFace) {
                 most = max(most, addFace(frame, receiver, listed));
             } else {
-                seeEdge(frame, receiver, listed, edge);
-                most = max(most, addEdge(frame, edge));
+                hidesLight(frame, receiver, listed, edge);
+                most = max(most, addEdge(frame, edge, changeBeyond(frame, receiver, listed, edge)));
             }
         }
     }
@@ -145,7 +147,7 @@ void main() {
     }
 
     TileBounds tileBounds = bounds[tile];
-    prepareShaft(tileBounds);
+    prepareShaft(tileBounds, lightBounds(tileBounds));
     uvec2 largeTile = place / uint(volume.tiles.z);
     uint list = (largeTile.y * uint(volume.tiles.y) + largeTile.x) * uint(volume.tiles.w);
     bool isEmpty = tileBounds.low.x > tileBounds.high.x;
@@ -175,10 +177,9 @@ void main() {
 
     if (!isInside) return;
     vec3 seen = vec3(isReceiver ? 0.0 : 1.0);
-    if (seesLight) {
-        int atCenter = int(round(texelFetch(volumeCounts, texel, 0).r)) + eye.blockers;
-        seen = visibilityOf(frame, frame.isInside ? 0 : atCenter);
-    }
+    int atCenter = texelFetch(centerCounts, texel, 0).r;
+    if (seesLight) seen = visibilityOf(frame, atCenter);
+    imageStore(shownCounts, texel, vec4(float(atCenter)));
     imageStore(visibility, texel, vec4(seen, 1.0));
     imageStore(edgeCounts, texel, vec4(float(edgesCounted)));
 }

@@ -129,8 +129,9 @@ void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const int size = hasNoSize(inputs.light) ? 0 : chooseSize();
     const int pixelsPerTexel = 1 << size;
     const auto frameTime = sizeTimers_.pass(sizePasses[std::size_t(size)]);
-    VolumeFrame frame(inputs, pixelsPerTexel);
     const bool wedges = method_ == int(Method::wedges) && !hasNoSize(inputs.light);
+    const bool isDrawn = wedges || hasNoSize(inputs.light);
+    VolumeFrame frame(inputs, pixelsPerTexel, isDrawn ? VolumeFrame::Count::drawn : VolumeFrame::Count::asked);
     if (wedges) {
         WedgeRaster::countAsBlockers(frame);
     } else {
@@ -139,9 +140,11 @@ void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     constants_.write(frame.constants);
     view_.bind(inputs.view, frame.lightFromWorld);
     constants_.bindUniform(1);
-    {
-        const auto pass = timers_.pass("soft-volumes/count");
+    if (isDrawn) {
+        const auto pass = timers_.pass("soft-volumes/drawn count");
         counter_.render(frame, Counting(counting_));
+    } else {
+        counter_.renderReceivers(frame);
     }
     if (hasNoSize(inputs.light)) {
         resolveHard(out);

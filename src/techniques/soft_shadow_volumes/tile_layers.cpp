@@ -51,6 +51,7 @@ TileLayers::TileLayers(Device& device)
       cuts_(device_.shaders, {shader("soft_cuts")}),
       bounds_(device_.shaders, {shader("soft_bounds")}),
       lists_(device_.shaders, {shader("soft_lists")}),
+      centerCounts_(device),
       points_(device) {
     GLint64 largest_bytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest_bytes);
@@ -115,7 +116,7 @@ void TileLayers::gatherEdges(const VolumeFrame& frame, const VolumeCounter& coun
     const auto bindMesh = [](const SilhouetteSource& source) {
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, source.mesh->positionBuffer());
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, source.mesh->indexBuffer());
-        glUniformMatrix4fv(0, 1, GL_FALSE, glm::value_ptr(glm::mat4(source.lightFromMesh)));
+        glUniformMatrix4dv(0, 1, GL_FALSE, glm::value_ptr(source.lightFromMesh));
     };
     const auto dispatchEach = [](std::size_t count) {
         glUniform1ui(4, GLuint(count));
@@ -138,16 +139,21 @@ void TileLayers::gatherEdges(const VolumeFrame& frame, const VolumeCounter& coun
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void TileLayers::listEdges(const VolumeFrame& frame, const VolumeCounter& counter) {
-    const glm::ivec2 size_px(frame.constants.buffer_px);
-    const glm::ivec4 tiles = frame.constants.tiles;
+void TileLayers::boundTiles(const VolumeFrame& frame, const VolumeCounter& counter) {
     bounds_.use();
     counter.depth().bind(4);
     bindStorage(0, tileBounds_);
-    gl::dispatchPixels(size_px.x, size_px.y);
+    gl::dispatchPixels(frame.constants.buffer_px.x, frame.constants.buffer_px.y);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void TileLayers::listEdges(const VolumeFrame& frame, const VolumeCounter& counter) {
+    const glm::ivec2 size_px(frame.constants.buffer_px);
+    const glm::ivec4 tiles = frame.constants.tiles;
     lists_.use();
+    bindStorage(0, tileBounds_);
     bindStorage(1, lightEdges_);
+    bindStorage(2, counter.eye());
     bindStorage(3, tileLists_);
     const int large_px = tiles.z * smallTile_px;
     glDispatchCompute(GLuint(tiles.y), GLuint((size_px.y + large_px - 1) / large_px),
@@ -175,8 +181,14 @@ void TileLayers::resolve(const VolumeFrame& frame, const VolumeCounter& counter)
 
     resolve_.use();
     points_.bind();
-    counter.bind(3, 2);
+    bindStorage(0, tileBounds_);
+    bindStorage(1, lightEdges_);
+    bindStorage(2, counter.eye());
+    bindStorage(3, tileLists_);
+    centerCounts_.counts().bind(3);
+    counter.depth().bind(4);
     edgeCounts_.bindImage(1, GL_WRITE_ONLY);
+    counter.counts().bindImage(2, GL_WRITE_ONLY);
     bindStorage(6, states_);
     bindStorage(7, rounds_);
     glUniform1ui(2, GLuint(effort_.roundWork));
@@ -205,6 +217,11 @@ void TileLayers::resolve(const VolumeFrame& frame, const VolumeCounter& counter)
 void TileLayers::render(const VolumeFrame& frame, const AreaLight& light, const VolumeCounter& counter,
                         GLuint target, gl::Format format, gl::PassTimers& timers) {
     {
+        const auto pass = timers.pass("soft-volumes/count");
+        boundTiles(frame, counter);
+        centerCounts_.count(frame, tileBounds_, counter.depth());
+    }
+    {
         const auto pass = timers.pass("soft-volumes/edges");
         gatherEdges(frame, counter);
         points_.place(light, effort_.samples);
@@ -228,7 +245,7 @@ std::size_t TileLayers::edgesWithoutRoom(const VolumeCounter& counter) const {
 
 std::size_t TileLayers::size_bytes() const {
     return lightEdges_.size_bytes() + tileBounds_.size_bytes() + tileLists_.size_bytes() +
-           states_.size_bytes() + rounds_.size_bytes();
+           states_.size_bytes() + rounds_.size_bytes() + centerCounts_.size_bytes();
 }
 
 }  // namespace penumbra

@@ -6,6 +6,7 @@
 
 #include "src/gl/pass_timers.h"
 #include "src/gl/texture.h"
+#include "src/techniques/soft_shadow_volumes/center_counts.h"
 #include "src/techniques/soft_shadow_volumes/light_points.h"
 #include "src/techniques/soft_shadow_volumes/volume_counter.h"
 
@@ -32,7 +33,7 @@ class TileLayers {
     /// the frame's constants may have been drawn yet.
     void prepare(VolumeFrame& frame, Effort effort);
     /// Writes visibility into `target`, a texture of the V-buffer's size. The frame's constants, the view and
-    /// what `counter` counted must be there.
+    /// the receivers of `counter` must be there.
     void render(const VolumeFrame& frame, const AreaLight& light, const VolumeCounter& counter, GLuint target,
                 gl::Format format, gl::PassTimers& timers);
 
@@ -44,6 +45,7 @@ class TileLayers {
     std::size_t edgesWithoutRoom(const VolumeCounter& counter) const;
 
   private:
+    void boundTiles(const VolumeFrame& frame, const VolumeCounter& counter);
     void gatherEdges(const VolumeFrame& frame, const VolumeCounter& counter);
     void makeResolve();
     void listEdges(const VolumeFrame& frame, const VolumeCounter& counter);
@@ -51,6 +53,7 @@ class TileLayers {
 
     Device::Internals& device_;
     gl::Program gather_, cuts_, bounds_, lists_, resolve_;
+    CenterCounts centerCounts_;
     LightPoints points_;
     gl::Buffer lightEdges_, tileBounds_, tileLists_, states_, rounds_;
     gl::Texture edgeCounts_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The space between a tile's receivers and the light: the convex hull of two boxes (Haines and Wallace 1991). An edge
-// outside of it hides nothing from them. Requires volumes_io.h.
+// The space between a tile's receivers and the light, or its centre: the convex hull of two boxes (Haines and Wallace
+// 1991). What is outside of it hides nothing from them. Requires volumes_io.h.
 
 struct TileBounds {
     vec4 low;   // of the receivers that see some of the light, in light space; low.x > high.x: there are none
@@ -27,12 +27,18 @@ TileBounds lightBounds(TileBounds tile) {
     return bounds;
 }
 
+// The light's centre, as lightBounds has the light.
+TileBounds centerBounds(TileBounds tile) {
+    if (volume.lightKind.x != shapeDistant) return TileBounds(vec4(0.0), vec4(0.0));
+    vec3 height = vec3(0.0, 0.0, max(volume.lightSize.w - tile.low.z, 0.0));
+    return TileBounds(tile.low, vec4(tile.high.xyz + height, 0.0));
+}
+
 const float shaftRounding = 1e-5;  // widens the shaft by some hundred roundings of its coordinates
 
 // Plane `index` of the hull: points with dot(plane.xyz, p) > plane.w are outside. Six bound both boxes along an axis; of
 // the twelve through corresponding corners, those that do not touch the hull from outside are returned as never failing.
-vec4 shaftPlane(TileBounds tile, int index) {
-    TileBounds light = lightBounds(tile);
+vec4 shaftPlane(TileBounds tile, TileBounds light, int index) {
     const vec4 never = vec4(0.0, 0.0, 0.0, 1.0);
     if (index < 3) {
         vec4 plane = vec4(0.0);
@@ -75,13 +81,23 @@ float tileSide(vec4 plane, TileBounds tile) {
 shared TileBounds shaftTile;
 shared vec4 shaft[shaftPlaneCount];
 
-// For all invocations of a group: makes the shaft of a tile.
-void prepareShaft(TileBounds tile) {
+// For all invocations of a group: makes the shaft from a tile to what it sees of the light.
+void prepareShaft(TileBounds tile, TileBounds light) {
     int lane = int(gl_LocalInvocationIndex);
     barrier();
     if (lane == 0) shaftTile = tile;
-    if (lane < shaftPlaneCount) shaft[lane] = shaftPlane(tile, lane);
+    if (lane < shaftPlaneCount) shaft[lane] = shaftPlane(tile, light, lane);
     barrier();
+}
+
+// False only if no part of the box is in the shaft.
+bool meetsShaft(vec3 low, vec3 high) {
+    bool isOutside = low.x > high.x;
+    for (int i = 0; i < shaftPlaneCount; ++i) {
+        vec3 normal = shaft[i].xyz;
+        isOutside = isOutside || dot(max(normal, 0.0), low) + dot(min(normal, 0.0), high) > shaft[i].w;
+    }
+    return !isOutside;
 }
 
 // False only if the edge hides nothing of the light from any receiver of the tile.

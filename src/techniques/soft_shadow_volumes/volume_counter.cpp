@@ -68,9 +68,13 @@ void VolumeCounter::allocate(int width_px, int height_px) {
     framebuffer_ = gl::Framebuffer({&counts_}, &depth_, "soft-volumes/counts");
 }
 
-void VolumeCounter::examineEye(const VolumeFrame& frame, Counting counting) {
+void VolumeCounter::forgetEye() {
     const EyeState start{};
     eye_.write(std::as_bytes(std::span(&start, 1)));
+}
+
+void VolumeCounter::examineEye(const VolumeFrame& frame, Counting counting) {
+    forgetEye();
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, eye_.name());
 
     blockers_.use();
@@ -148,6 +152,13 @@ void VolumeCounter::drawReceiverDepth(GLuint framebuffer, glm::ivec2 size_px) co
                                 .colorWrite = false});
     depthCopy_.use();
     glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void VolumeCounter::renderReceivers(const VolumeFrame& frame) {
+    const glm::ivec2 size_px(frame.constants.buffer_px);
+    allocate(size_px.x, size_px.y);
+    forgetEye();
+    drawReceiverDepth(framebuffer_.name(), size_px);
 }
 
 void VolumeCounter::render(const VolumeFrame& frame, Counting counting) {

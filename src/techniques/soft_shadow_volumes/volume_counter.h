@@ -26,6 +26,9 @@ class VolumeCounter {
   public:
     explicit VolumeCounter(Device& device);
 
+    /// Only finds where receivers are, and forgets what is known about the eye. `constants` and the view must be bound
+    /// to uniform blocks 1 and 0.
+    void renderReceivers(const VolumeFrame& frame);
     /// Finds the silhouettes and counts. `constants` and the view must be bound to uniform blocks 1 and 0.
     void render(const VolumeFrame& frame, Counting counting);
 
@@ -43,6 +46,7 @@ class VolumeCounter {
 
   private:
     void allocate(int width_px, int height_px);
+    void forgetEye();
     void examineEye(const VolumeFrame& frame, Counting counting);
     void drawSides(std::size_t commandOffset, float sign) const;
     void drawCaps(const VolumeFrame& frame, std::size_t ofPair, float sign) const;

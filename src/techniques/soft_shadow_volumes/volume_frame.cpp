@@ -100,7 +100,7 @@ void AlphaMaskWarning::check(std::span<const Caster> casters) {
     }
 }
 
-VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel)
+VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel, Count count)
     : lightFromWorld(penumbra::lightFromWorld(inputs)) {
     const View& view = inputs.view;
     const AreaLight& light = inputs.light;
@@ -111,20 +111,26 @@ VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel)
     glm::dvec2 half(0.5 * light.width_m, 0.5 * light.height_m);
     half = glm::max(half, glm::dvec2(1e-3 * std::max(half.x, half.y)));
     if (light.shape != LightShape::rect) half = glm::dvec2(light.radius_m);
-    const glm::dvec3 reach(half, light.shape == LightShape::sphere ? half.x : 0);
+    // What lies in a flat light's plane is not always exactly there.
+    const double depth = light.shape == LightShape::sphere ? half.x : inPlane * std::max(half.x, half.y);
+    const glm::dvec3 reach(half, depth);
     const auto isCut = [&](const LightBox& box) {
         return light.shape != LightShape::distant && glm::all(glm::lessThanEqual(box.low, reach)) &&
                glm::all(glm::greaterThanEqual(box.high, -reach));
     };
     const auto casts = [](const Caster& caster) { return caster.casts && !caster.mesh->indices().empty(); };
 
-    // Lights are put into walls by their centres, and everything is counted from there: so that it lies
-    // clearly on one side, a light that may be cut through is moved by less than a ten-thousandth of its
-    // size.
+    // Lights are put into walls by their centres, and everything is counted from there: so that it lies clearly on one
+    // side, a light that may be cut through is moved by less than a ten-thousandth of its size; and one that may be
+    // flush with a face, to where it shines.
+    double planeAt_m = 0;
     if (std::ranges::any_of(inputs.casters, [&](const Caster& caster) {
             return casts(caster) && isCut(boxOf(*caster.mesh, lightFromWorld * toGlm(caster.worldFromMesh)));
         })) {
-        const glm::dvec3 off = 1e-4 * reach * glm::dvec3(0.618, 0.755, 0.211);
+        const bool isFlat = light.shape != LightShape::sphere;
+        if (isFlat && count == Count::drawn) planeAt_m = 0.9 * depth;
+        const glm::dvec3 off(double(inPlane) * half * glm::dvec2(0.618, 0.755),
+                             isFlat ? planeAt_m : 0.211 * double(inPlane) * depth);
         lightFromWorld = glm::translate(glm::dmat4(1), off) * lightFromWorld;
     }
 
@@ -148,7 +154,8 @@ VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel)
 
     constants.clipFromLight = bufferFromClip(view, size_px, pixelsPerTexel) * toGlm(view.clipFromView) *
                               glm::inverse(lightFromView);
-    constants.lightSize = glm::dvec4(half, tangent, highest_m);
+    const bool isDistant = light.shape == LightShape::distant;
+    constants.lightSize = glm::dvec4(half, isDistant ? tangent : planeAt_m, highest_m);
     constants.lightKind = {int(light.shape), isOneSided(light), hasNoSize(light), light.radianceTexture != 0};
     constants.buffer_px = {size_px, pixelsPerTexel, view.depth.reversed};
 }

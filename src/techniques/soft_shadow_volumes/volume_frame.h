@@ -29,9 +29,13 @@ struct VolumeFrame {
     /// in every orthographic view.
     bool mayHide = false;
 
+    /// How layers before the light's centre are counted: a flat light's, which may lie in a face, is drawn from a
+    /// place a little before it; asked of triangles, what lies in its plane is left out.
+    enum class Count { drawn, asked };
+
     /// `pixelsPerTexel`: 1, 2, 4: the V-buffer's texel (i, j) stands for the pixel at that multiple of (i,
     /// j).
-    VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel);
+    VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel, Count count);
 
     /// Closes the holes of all casters with triangles that nobody draws.
     void capHoles(Device& device);

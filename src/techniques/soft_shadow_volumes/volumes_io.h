@@ -14,14 +14,17 @@ using glm::vec4;
 using uint = std::uint32_t;
 #endif
 
+// Of a flat light's larger half side: what is nearer to its plane is taken to lie in it.
+const float inPlane = 1e-4f;
+
 // The light, the eye and the V-buffer as all passes see them, in light space.
 struct VolumeConstants {
     // The view's, shifted so that texels of the V-buffer lie on the pixels they stand for.
     mat4 clipFromLight;
     // Homogeneous: w = 1 a place, w = 0 the direction towards an orthographic viewer.
     vec4 eyeLight;
-    // xy: half width and height, or radius; z: tangent of half a distant light's angle; w: the highest
-    // caster's z.
+    // xy: half width and height, or radius; z: tangent of half a distant light's angle, or z of the plane
+    // where a flat light is, if it has been moved; w: the highest caster's z.
     vec4 lightSize;
     // x: LightShape; y: 1 if one-sided; z: 1 if it has no size; w: 1 if it has a radiance texture.
     ivec4 lightKind;
@@ -44,6 +47,26 @@ struct LightEdge {
     vec4 planes[2];
 };
 
+// A triangle in light space, and its plane as of LightEdge, for the way in which it is wound. A plane of 0:
+// the triangle hides nothing from the light's centre.
+struct LightTriangle {
+    vec4 a;
+    vec4 b;
+    vec4 c;
+    vec4 plane;
+};
+
+// How many of them make a cluster, and so many clusters a group of center_counts.comp.glsl goes through: were it to look at
+// each of their triangles, a software rasterizer would still do all that it is asked (README.md, "Rounds").
+const uint clusterTriangles = 32u;
+const uint clustersAtOnce = 1024u;
+
+// Around a cluster. low.x > high.x: nothing of it hides anything.
+struct TriangleCluster {
+    vec4 low;
+    vec4 high;
+};
+
 // What is known about the eye, and how the volumes are drawn.
 struct EyeState {
     int blockers;        // triangles between the light's centre and the eye
@@ -57,6 +80,7 @@ struct EyeState {
 
 #ifdef __cplusplus
 static_assert(sizeof(VolumeConstants) == 144 && sizeof(LightEdge) == 64 && sizeof(EyeState) == 64);
+static_assert(sizeof(LightTriangle) == 64 && sizeof(TriangleCluster) == 32);
 }  // namespace penumbra
 #else
 const float wholeFace = 2.0;
@@ -71,6 +95,9 @@ uint wordsOfEdges(uint edgeCount) {
     uint words = (edgeCount + 31u) / 32u;
     return words <= uint(volume.tiles.w) ? words : 0u;
 }
+
+// An order of places that all who ask about an edge agree on.
+bool isBefore(vec3 a, vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
 
 // From the light's centre through a point: the direction in which the point's shadow falls.
 vec3 shadowDirection(vec3 posLight) {

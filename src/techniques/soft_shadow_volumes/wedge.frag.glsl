@@ -6,6 +6,7 @@
 #include "src/techniques/soft_shadow_volumes/lifted_receiver.glsl"
 #include "src/techniques/soft_shadow_volumes/light_area.glsl"
 #include "src/techniques/soft_shadow_volumes/light_points.glsl"
+#include "src/techniques/soft_shadow_volumes/seen_edges.glsl"
 
 layout(location = 0) flat in vec3 aLight;
 layout(location = 1) flat in vec3 bLight;
@@ -17,12 +18,12 @@ layout(location = 2) out vec4 colored;        // of a textured light: additive l
 
 // The share of a textured light's radiance beyond the edge: what the thesis has in a table of four dimensions. Of a
 // channel that is black all over, the share of its points.
-vec3 radianceBeyond(vec2 a, vec2 b, float turn) {
+vec3 radianceBeyond(LightFrame frame, SeenEdge edge) {
     vec4 beyond = vec4(0.0), all = vec4(0.0);
     for (int i = 0; i < pointCount; ++i) {
         vec4 radiance = vec4(radiances[i].rgb, 1.0);
         all += radiance;
-        beyond += isCrossed(a, b, turn, samples[i].xy) ? radiance : vec4(0.0);
+        beyond += isCrossed(frame, edge, samples[i].xy) ? radiance : vec4(0.0);
     }
     return mix(vec3(beyond.a / all.a), beyond.rgb / max(all.rgb, 1e-30), greaterThan(all.rgb, vec3(0.0)));
 }
@@ -35,14 +36,13 @@ void main() {
     LightFrame frame;
     if (!loadLiftedReceiver(ivec2(gl_FragCoord.xy), receiver) || !makeLightFrame(receiver, frame)) return;
     if (frame.isInside) return;
-    vec3 a, b;
-    if (!edgeBeforeLight(frame, receiver.posLight, vec4(aLight, 0.0), vec4(bLight, 0.0), a, b)) return;
-    a.xy /= a.z;
-    b.xy /= b.z;
-    float turn = a.x * b.y - a.y * b.x;
+    SeenEdge edge;
+    if (!seeEdge(frame, receiver.posLight, vec4(aLight, 0.0), vec4(bLight, 0.0), edge)) return;
+    vec2 from, to;
+    if (!partBeforeLight(frame, edge, from, to)) return;
     // A face that shows the light its front shows the receiver, on the other side of the edge, its back.
-    float blockers = sign(turn) * weight * frame.handedness * 0.5;
-    vec3 share = pointCount > 0 ? radianceBeyond(a.xy, b.xy, turn) : vec3(shareBeyond(a.xy, b.xy));
+    float blockers = (edge.hasLeft ? weight : -weight) * frame.handedness * 0.5;
+    vec3 share = pointCount > 0 ? radianceBeyond(frame, edge) : vec3(shareBeyond(from, to));
     colored = vec4(blockers * share, 0.0);
     float change = blockers * dot(share, vec3(1.0 / 3.0));
     layers = vec2(max(change, 0.0), max(-change, 0.0));

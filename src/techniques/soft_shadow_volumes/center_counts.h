@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// How many layers lie between each receiver and the light's centre, asked of the triangles themselves: what edges
+// change is counted from there (README.md, "Counting layers").
+#pragma once
+
+#include "src/device_internals.h"
+#include "src/gl/buffer.h"
+#include "src/gl/program.h"
+#include "src/gl/texture.h"
+#include "src/techniques/soft_shadow_volumes/volume_frame.h"
+
+namespace penumbra {
+
+class CenterCounts {
+  public:
+    explicit CenterCounts(Device& device);
+
+    /// Counts for all texels of the V-buffer. The frame's constants and the view must be bound; `tileBounds` says
+    /// where the receivers of its small tiles are, `depth` how far they are.
+    void count(const VolumeFrame& frame, const gl::Buffer& tileBounds, const gl::Texture& depth);
+
+    const gl::Texture& counts() const { return counts_; }  ///< R32I
+    std::size_t size_bytes() const;
+
+  private:
+    void allocate(const VolumeFrame& frame);
+    void countBatch(const VolumeFrame& frame, const gl::Buffer& tileBounds, unsigned clusters);
+
+    gl::Program gather_, lists_, count_;
+    gl::Buffer triangles_, clusters_, clusterLists_;
+    gl::Texture counts_;
+};
+
+}  // namespace penumbra
