@@ -11,17 +11,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/soft_shadow_volumes/light_area.glsl"
 #include "src/techniques/soft_shadow_volumes/seen_edges.glsl"
 #include "src/techniques/soft_shadow_volumes/tile_shaft.glsl"
+#include "src/techniques/soft_shadow_volumes/near_clusters.glsl"
 
-layout(std430, binding = 0) readonly buffer Bounds { TileBounds bounds[]; };
-layout(std430, binding = 1) readonly buffer Clusters { TriangleCluster clusters[]; };
-layout(std430, binding = 2) readonly buffer Triangles { LightTriangle triangles[]; };
-layout(std430, binding = 3) readonly buffer Lists { uint lists[]; };
 layout(binding = 0, r32i) uniform iimage2D centerCounts;
-
-layout(location = 0) uniform uint clusterCount;
-
-shared uint near[clustersAtOnce];
-shared uint nearCount;
 
 // Whether a way is walked with the light's centre to its left. Asked of both faces of an edge from the same end.
 bool hasLeft(vec3 aLight, vec3 bLight, vec3 a, vec3 b) {
@@ -53,30 +45,13 @@ bool mayCross(vec3 posLight, TriangleCluster cluster) {
     return all(lessThanEqual(abs(between), reach + along)) && all(lessThanEqual(turned, limit));
 }
 
-// Lists the clusters of this group's part of the list that may matter to the tile.
-void listNear(uint list, uint words) {
-    uint lane = gl_LocalInvocationIndex;
-    if (lane == 0u) nearCount = 0u;
-    barrier();
-    uint word = gl_WorkGroupID.z * (clustersAtOnce / 32u) + lane / 2u;
-    // Two lanes a word, a half each.
-    uint bits = word < words ? lists[list + word] & (lane % 2u == 0u ? 0xffffu : 0xffff0000u) : 0u;
-    for (; bits != 0u; bits &= bits - 1u) {
-        uint cluster = 32u * word + uint(findLSB(bits));
-        if (meetsShaft(clusters[cluster].low.xyz, clusters[cluster].high.xyz)) near[atomicAdd(nearCount, 1u)] = cluster;
-    }
-    barrier();
-}
-
 void main() {
     uint tile = gl_WorkGroupID.y * uint(volume.tiles.x) + gl_WorkGroupID.x;
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     TileBounds tileBounds = bounds[tile];
     if (tileBounds.low.x > tileBounds.high.x) return;
     prepareShaft(tileBounds, centerBounds(tileBounds));
-    uvec2 largeTile = gl_WorkGroupID.xy / uint(volume.tiles.z);
-    uint words = (clusterCount + 31u) / 32u;
-    listNear((largeTile.y * uint(volume.tiles.y) + largeTile.x) * words, words);
+    listNear(clustersAtOnce);
 
     Receiver receiver;
     LightFrame frame;

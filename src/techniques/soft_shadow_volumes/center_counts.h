@@ -3,11 +3,7 @@
 // change is counted from there (README.md, "Counting layers").
 #pragma once
 
-#include "src/device_internals.h"
-#include "src/gl/buffer.h"
-#include "src/gl/program.h"
-#include "src/gl/texture.h"
-#include "src/techniques/soft_shadow_volumes/volume_frame.h"
+#include "src/techniques/soft_shadow_volumes/caster_clusters.h"
 
 namespace penumbra {
 
@@ -17,17 +13,15 @@ class CenterCounts {
 
     /// Counts for all texels of the V-buffer. The frame's constants and the view must be bound; `tileBounds` says
     /// where the receivers of its small tiles are, `depth` how far they are.
-    void count(const VolumeFrame& frame, const gl::Buffer& tileBounds, const gl::Texture& depth);
+    void count(const VolumeFrame& frame, CasterClusters& clusters, const gl::Buffer& tileBounds,
+               const gl::Texture& depth);
 
     const gl::Texture& counts() const { return counts_; }  ///< R32I
-    std::size_t size_bytes() const;
 
   private:
-    void allocate(const VolumeFrame& frame);
-    void countBatch(const VolumeFrame& frame, const gl::Buffer& tileBounds, unsigned clusters);
+    void countBatch(const VolumeFrame& frame, CasterClusters& clusters, const gl::Buffer& tileBounds);
 
-    gl::Program gather_, lists_, count_;
-    gl::Buffer triangles_, clusters_, clusterLists_;
+    gl::Program count_;
     gl::Texture counts_;
 };
 

@@ -1,66 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How many layers of surface lie before each point of the light, as a receiver sees them: the edges between the light's
-// centre and a point change the count (README.md, "Counting layers"). Requires light_points.glsl and seen_edges.glsl.
-//
-// SAMPLES: the number of points of the light at which layers are counted.
-#ifndef SAMPLES
-#define SAMPLES 64
-#endif
-
-// A sphere shows its directions, not the area of its disk. Above this tangent (of some 9 degrees) the two differ by more
-// than a hundredth, and samples are placed by solid angle.
-const float wideLight = 0.15;
-
-// What the points are spread over: all of the light; or, where most of it is below the receiver's horizon and few of its
-// points would be left, the box around the rest.
-bool isSliver = false;
-vec2 boxMiddle = vec2(0.0);
-mat2 boxFromPoints = mat2(1.0);
-
-void spreadPoints(LightFrame frame) {
-    vec2 up = frame.horizon.xy, slope = abs(up);
-    float reach = horizonReach(frame);
-    // Of a textured light no more than must be: there points stand for what is around them.
-    isSliver = horizonSide(frame) == 0 && frame.horizon.z < (volume.lightKind.w == 1 ? -0.6 * reach : 0.0);
-    if (!isSliver) return;
-    if (isSquareLight()) {
-        // How far down from the highest corner each of its sides is above the horizon.
-        vec2 low = max((-frame.horizon.z - slope.yx) / max(slope, 1e-30), -1.0);
-        vec2 corner = vec2(up.x < 0.0 ? -1.0 : 1.0, up.y < 0.0 ? -1.0 : 1.0);
-        boxMiddle = corner * 0.5 * (1.0 + low);
-        boxFromPoints = mat2(0.5 * (1.0 - low.x), 0.0, 0.0, 0.5 * (1.0 - low.y));
-    } else {
-        // From the horizon to the disk's highest point, and as wide as the chord.
-        float low = -frame.horizon.z / reach;
-        vec2 axis = up / reach;
-        boxMiddle = axis * 0.5 * (1.0 + low);
-        boxFromPoints = mat2(axis * 0.5 * (1.0 - low), vec2(-axis.y, axis.x) * sqrt(max(1.0 - low * low, 0.0)));
-    }
-}
-
-vec2 samplePlace(LightFrame frame, int i) {
-    vec4 s = samples[i];
-    // What a disk's points have been made from fills a square.
-    if (isSliver) return boxMiddle + boxFromPoints * (isSquareLight() ? s.xy : 2.0 * s.zw - 1.0);
-    if (frame.tangent <= wideLight) return s.xy;
-    // Uniform in solid angle: the cosine falls linearly with the share of the cone.
-    float tangent2 = frame.tangent * frame.tangent;
-    float cosine = 1.0 - s.z * (1.0 - inversesqrt(1.0 + tangent2));
-    return s.xy * sqrt((1.0 / (cosine * cosine) - 1.0) / (s.z * tangent2));
-}
-
-// Whether a point is on the light and above the horizon.
-bool isInView(LightFrame frame, vec2 s) {
-    bool isOnLight = !isSliver || isSquareLight() || dot(s, s) <= 1.0;
-    return isOnLight && isAboveHorizon(frame, s);
-}
-
-// Points of a sliver are spread over an area, where those of a wide light stand for solid angles.
-float sampleWeight(LightFrame frame, vec2 s) {
-    if (!isSliver || frame.tangent <= wideLight) return 1.0;
-    float longer2 = 1.0 + frame.tangent * frame.tangent * dot(s, s);
-    return inversesqrt(longer2) / longer2;
-}
+// centre and a point change the count (README.md, "Counting layers"). Requires point_places.glsl, seen_edges.glsl and
+// radiance_beyond.glsl.
 
 const float fixedOne = 1048576.0;  // integers add up to the same in any order
 
@@ -68,7 +9,7 @@ const float fixedOne = 1048576.0;  // integers add up to the same in any order
 // which some compilers copy.
 int changes[SAMPLES];
 int leastChange = 2;      // of any edge: how many layers the thinnest blocker has
-int meanChangeFixed = 0;  // exact mean over the light, times fixedOne
+ivec3 meanChangeFixed = ivec3(0);  // exact mean over the light, of each channel's radiance, times fixedOne
 int edgesCounted = 0;
 
 float directionOf(vec2 d) { return fract(atan(d.y, d.x) / lightTau); }
@@ -108,7 +49,8 @@ uint addEdge(LightFrame frame, SeenEdge edge, int change) {
     vec2 from, to;
     if (!partBeforeLight(frame, edge, from, to)) return 0u;
     leastChange = min(leastChange, abs(change));
-    meanChangeFixed += change * int(shareBeyond(from, to) * fixedOne + 0.5);
+    vec3 beyond = volume.lightKind.w == 1 ? radianceBeyond(edge, from, to) : vec3(shareBeyond(from, to));
+    meanChangeFixed += change * ivec3(beyond * fixedOne + 0.5);
     // Only points in the directions between the edge's ends can lie behind it; they follow each other in the list, unless
     // they have been put elsewhere.
     float first = directionOf(edge.hasLeft ? from : to), last = directionOf(edge.hasLeft ? to : from);

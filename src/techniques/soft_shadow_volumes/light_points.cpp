@@ -32,13 +32,22 @@ std::vector<glm::vec4> spreadPoints(int count, bool onSquare) {
     return points;
 }
 
-/// A textured light has no exact area to correct its samples with.
+/// What stands for a part of a picture does worse than what stands for a part of an area.
 constexpr int texturedFactor = 2;
+
+constexpr int tableColumns = 512, tableRows = 129;  // as light_table.glsl has it
 
 }  // namespace
 
 LightPoints::LightPoints(Device& device)
-    : radiance_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/soft_radiance.comp.glsl"}) {}
+    : radiance_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/soft_radiance.comp.glsl"}),
+      makeTable_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/light_table.comp.glsl"}),
+      table_({.width_px = tableColumns,
+              .height_px = tableRows,
+              .format = GL_RGBA32F,
+              .filter = GL_LINEAR,
+              .wrap = GL_REPEAT,
+              .label = "soft-volumes/light table"}) {}
 
 void LightPoints::place(const AreaLight& light, int count) {
     const bool onSquare = light.shape == LightShape::rect, isTextured = light.radianceTexture != 0;
@@ -56,7 +65,10 @@ void LightPoints::place(const AreaLight& light, int count) {
     glBindTextureUnit(3, light.radianceTexture);
     glUniform1i(0, count_);
     glDispatchCompute(GLuint(count_ + 63) / 64, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    makeTable_.use();
+    table_.bindImage(0, GL_WRITE_ONLY);
+    glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 void LightPoints::bind() const {

@@ -6,6 +6,7 @@
 #include "src/device_internals.h"
 #include "src/gl/buffer.h"
 #include "src/gl/program.h"
+#include "src/gl/texture.h"
 
 namespace penumbra {
 
@@ -23,9 +24,12 @@ class LightPoints {
     int count() const { return count_; }
     /// Their places and radiances, for light_points.glsl.
     void bind() const;
+    /// What a textured light radiates beyond each place on it, for radiance_beyond.glsl.
+    void bindTable(unsigned unit) const { table_.bind(unit); }
 
   private:
-    gl::Program radiance_;
+    gl::Program radiance_, makeTable_;
+    gl::Texture table_;
     gl::Buffer places_, radiances_;
     int count_ = 0;
     bool onSquare_ = false;

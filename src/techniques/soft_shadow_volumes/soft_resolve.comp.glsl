@@ -14,7 +14,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/soft_shadow_volumes/lifted_receiver.glsl"
 #include "src/techniques/soft_shadow_volumes/light_area.glsl"
 #include "src/techniques/soft_shadow_volumes/light_points.glsl"
+#include "src/techniques/soft_shadow_volumes/point_places.glsl"
 #include "src/techniques/soft_shadow_volumes/seen_edges.glsl"
+#include "src/techniques/soft_shadow_volumes/light_table.glsl"
+#include "src/techniques/soft_shadow_volumes/radiance_beyond.glsl"
 #include "src/techniques/soft_shadow_volumes/tile_shaft.glsl"
 #include "src/techniques/soft_shadow_volumes/layer_counts.glsl"
 #include "src/techniques/soft_shadow_volumes/layer_visibility.glsl"
@@ -27,6 +30,7 @@ layout(std430, binding = 6) buffer States { int states[]; };
 // The arguments of each round's indirect dispatch, then two lists of tiles: those of this round, and of the next.
 layout(std430, binding = 7) buffer Rounds { uint rounds[]; };
 layout(binding = 3) uniform isampler2D centerCounts;
+layout(binding = 6) uniform usampler2DArray hiddenPoints;  // by casters with holes: a bit a point, in layers of 32
 layout(binding = 0) uniform writeonly image2D visibility;
 layout(binding = 1, r32f) uniform writeonly image2D edgeCounts;
 layout(binding = 2, r32f) uniform writeonly image2D shownCounts;
@@ -35,8 +39,9 @@ layout(location = 0) uniform uint firstTile;  // of the band that is worked on
 layout(location = 1) uniform uint round_;
 layout(location = 2) uniform uint roundWork;  // loop iterations after which a tile pauses
 layout(location = 3) uniform uvec2 roundLists;  // where this round's list of tiles begins, and the next one's
+layout(location = 4) uniform bool hasMasks;
 
-const uint stateWords = uint(SAMPLES) + 3u;
+const uint stateWords = uint(SAMPLES) + 5u;
 const uint wordsAtOnce = 64u;
 
 shared uint mattering[EDGES_AT_ONCE];
@@ -49,16 +54,16 @@ void saveCounts(uint tile) {
     for (int i = 0; i < SAMPLES; ++i) states[stateAt(tile, uint(i))] = changes[i];
     uint rest = uint(SAMPLES);
     states[stateAt(tile, rest)] = leastChange;
-    states[stateAt(tile, rest + 1u)] = meanChangeFixed;
-    states[stateAt(tile, rest + 2u)] = edgesCounted;
+    states[stateAt(tile, rest + 1u)] = edgesCounted;
+    for (int i = 0; i < 3; ++i) states[stateAt(tile, rest + 2u + uint(i))] = meanChangeFixed[i];
 }
 
 void loadCounts(uint tile) {
     for (int i = 0; i < SAMPLES; ++i) changes[i] = states[stateAt(tile, uint(i))];
     uint rest = uint(SAMPLES);
     leastChange = states[stateAt(tile, rest)];
-    meanChangeFixed = states[stateAt(tile, rest + 1u)];
-    edgesCounted = states[stateAt(tile, rest + 2u)];
+    edgesCounted = states[stateAt(tile, rest + 1u)];
+    for (int i = 0; i < 3; ++i) meanChangeFixed[i] = states[stateAt(tile, rest + 2u + uint(i))];
 }
 
 void pause(uint tile, uint word) {
@@ -126,6 +131,25 @@ uint addMattering(LightFrame frame, Receiver receiver, bool seesLight, uint coun
     return count * (mostPoints + 16u);
 }
 
+// Adds a layer before each point that a caster with holes hides.
+void addHidden(ivec2 texel) {
+    vec3 hidden = vec3(0.0), all = vec3(0.0);
+    uint word = 0u, any = 0u;
+    for (int i = 0; i < SAMPLES; ++i) {
+        if ((i & 31) == 0) word = texelFetch(hiddenPoints, ivec3(texel, i >> 5), 0).r;
+        bool isHidden = (word & (1u << (i & 31))) != 0u;
+        vec3 radiance = volume.lightKind.w == 1 ? radiances[i].rgb : vec3(1.0);
+        changes[i] += isHidden ? 1 : 0;
+        hidden += isHidden ? radiance : vec3(0.0);
+        all += radiance;
+        any |= word;
+    }
+    if (any == 0u) return;
+    meanChangeFixed += ivec3(hidden / max(all, 1e-30) * fixedOne);
+    leastChange = 1;
+    ++edgesCounted;
+}
+
 void main() {
     uint lane = gl_LocalInvocationIndex;
     uint tile = round_ == 0u ? firstTile + gl_WorkGroupID.y * uint(volume.tiles.x) + gl_WorkGroupID.x
@@ -178,7 +202,10 @@ void main() {
     if (!isInside) return;
     vec3 seen = vec3(isReceiver ? 0.0 : 1.0);
     int atCenter = texelFetch(centerCounts, texel, 0).r;
-    if (seesLight) seen = visibilityOf(frame, atCenter);
+    if (seesLight) {
+        if (hasMasks) addHidden(texel);
+        seen = visibilityOf(frame, atCenter);
+    }
     imageStore(shownCounts, texel, vec4(float(atCenter)));
     imageStore(visibility, texel, vec4(seen, 1.0));
     imageStore(edgeCounts, texel, vec4(float(edgesCounted)));

@@ -125,7 +125,6 @@ void SoftVolumes::upsample(const VisibilityBuffer& out) {
 
 void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     checkInputs(inputs, out);
-    alphaMaskWarning_.check(inputs.casters);
     const int size = hasNoSize(inputs.light) ? 0 : chooseSize();
     const int pixelsPerTexel = 1 << size;
     const auto frameTime = sizeTimers_.pass(sizePasses[std::size_t(size)]);
@@ -141,6 +140,7 @@ void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     view_.bind(inputs.view, frame.lightFromWorld);
     constants_.bindUniform(1);
     if (isDrawn) {
+        alphaMaskWarning_.check(inputs.casters);
         const auto pass = timers_.pass("soft-volumes/drawn count");
         counter_.render(frame, Counting(counting_));
     } else {

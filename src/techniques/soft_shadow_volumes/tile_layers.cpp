@@ -34,7 +34,7 @@ constexpr std::size_t largestStates_bytes = std::size_t(64) << 20;
 
 /// What soft_resolve.comp.glsl keeps of a tile between rounds.
 std::size_t stateBytes(int samples) {
-    return std::size_t(samples + 4) * smallTile_px * smallTile_px * sizeof(int);
+    return std::size_t(samples + 6) * smallTile_px * smallTile_px * sizeof(int);
 }
 
 /// How many edges soft_resolve.comp.glsl takes at once: so few that they take no longer than a round does,
@@ -51,7 +51,9 @@ TileLayers::TileLayers(Device& device)
       cuts_(device_.shaders, {shader("soft_cuts")}),
       bounds_(device_.shaders, {shader("soft_bounds")}),
       lists_(device_.shaders, {shader("soft_lists")}),
+      clusters_(device),
       centerCounts_(device),
+      maskedPoints_(device),
       points_(device) {
     GLint64 largest_bytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest_bytes);
@@ -181,6 +183,7 @@ void TileLayers::resolve(const VolumeFrame& frame, const VolumeCounter& counter)
 
     resolve_.use();
     points_.bind();
+    points_.bindTable(5);
     bindStorage(0, tileBounds_);
     bindStorage(1, lightEdges_);
     bindStorage(2, counter.eye());
@@ -192,6 +195,8 @@ void TileLayers::resolve(const VolumeFrame& frame, const VolumeCounter& counter)
     bindStorage(6, states_);
     bindStorage(7, rounds_);
     glUniform1ui(2, GLuint(effort_.roundWork));
+    glUniform1i(4, !frame.masked.empty());
+    if (!frame.masked.empty()) maskedPoints_.hidden().bind(6);
     for (int row = 0; row < rows; row += bandRows) {
         glClearNamedBufferSubData(rounds_.name(), GL_R32UI, 0, GLsizeiptr(lists * sizeof(GLuint)),
                                   GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
@@ -219,13 +224,15 @@ void TileLayers::render(const VolumeFrame& frame, const AreaLight& light, const 
     {
         const auto pass = timers.pass("soft-volumes/count");
         boundTiles(frame, counter);
-        centerCounts_.count(frame, tileBounds_, counter.depth());
+        clusters_.allocate(frame);
+        centerCounts_.count(frame, clusters_, tileBounds_, counter.depth());
     }
     {
         const auto pass = timers.pass("soft-volumes/edges");
         gatherEdges(frame, counter);
         points_.place(light, effort_.samples);
         makeResolve();
+        maskedPoints_.mark(frame, clusters_, points_, tileBounds_, counter.depth());
     }
     {
         const auto pass = timers.pass("soft-volumes/tile lists");
@@ -245,7 +252,7 @@ std::size_t TileLayers::edgesWithoutRoom(const VolumeCounter& counter) const {
 
 std::size_t TileLayers::size_bytes() const {
     return lightEdges_.size_bytes() + tileBounds_.size_bytes() + tileLists_.size_bytes() +
-           states_.size_bytes() + rounds_.size_bytes() + centerCounts_.size_bytes();
+           states_.size_bytes() + rounds_.size_bytes() + clusters_.size_bytes();
 }
 
 }  // namespace penumbra

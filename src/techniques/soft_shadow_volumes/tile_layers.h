@@ -8,6 +8,7 @@
 #include "src/gl/texture.h"
 #include "src/techniques/soft_shadow_volumes/center_counts.h"
 #include "src/techniques/soft_shadow_volumes/light_points.h"
+#include "src/techniques/soft_shadow_volumes/masked_points.h"
 #include "src/techniques/soft_shadow_volumes/volume_counter.h"
 
 namespace penumbra {
@@ -53,7 +54,9 @@ class TileLayers {
 
     Device::Internals& device_;
     gl::Program gather_, cuts_, bounds_, lists_, resolve_;
+    CasterClusters clusters_;
     CenterCounts centerCounts_;
+    MaskedPoints maskedPoints_;
     LightPoints points_;
     gl::Buffer lightEdges_, tileBounds_, tileLists_, states_, rounds_;
     gl::Texture edgeCounts_;

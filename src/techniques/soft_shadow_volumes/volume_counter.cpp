@@ -83,7 +83,7 @@ void VolumeCounter::examineEye(const VolumeFrame& frame, Counting counting) {
         const GLuint triangles = GLuint(source.mesh->indices().size() / 3);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, source.mesh->positionBuffer());
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, source.mesh->indexBuffer());
-        glUniformMatrix4fv(0, 1, GL_FALSE, glm::value_ptr(glm::mat4(source.lightFromMesh)));
+        glUniformMatrix4dv(0, 1, GL_FALSE, glm::value_ptr(source.lightFromMesh));
         glUniform1ui(4, triangles);
         glUniform1i(5, frame.layersEach[i]);
         glDispatchCompute((triangles + 255) / 256, 1, 1);

@@ -141,11 +141,16 @@ VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel, Count c
     double highest_m = -std::numeric_limits<double>::max();
     for (const Caster& caster : inputs.casters) {
         if (!casts(caster)) continue;
-        sources.push_back({caster.mesh, lightFromWorld * toGlm(caster.worldFromMesh)});
-        layersEach.push_back(1);
-        const LightBox box = boxOf(*caster.mesh, sources.back().lightFromMesh);
-        cutsLight.push_back(isCut(box));
+        const SilhouetteSource source{caster.mesh, lightFromWorld * toGlm(caster.worldFromMesh)};
+        const LightBox box = boxOf(*caster.mesh, source.lightFromMesh);
         highest_m = std::max(highest_m, box.high.z);
+        if (count == Count::asked && caster.alphaMask.texture != 0 && caster.mesh->uvBuffer() != 0) {
+            masked.push_back({source, caster.alphaMask});
+            continue;
+        }
+        sources.push_back(source);
+        layersEach.push_back(1);
+        cutsLight.push_back(isCut(box));
         mayHide = mayHide || !(glm::distance(glm::clamp(eyeLight, box.low, box.high), eyeLight) > reach_m);
     }
 

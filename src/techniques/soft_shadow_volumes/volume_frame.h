@@ -12,12 +12,19 @@
 
 namespace penumbra {
 
+/// A caster with holes.
+struct MaskedSource {
+    SilhouetteSource source;
+    AlphaMask mask;
+};
+
 /// What both techniques of the room prepare on the CPU for a frame.
 struct VolumeFrame {
     glm::dmat4 lightFromWorld{1};
     VolumeConstants constants{};
-    /// The casters that cast and have triangles.
+    /// The casters that cast and have triangles; where layers are asked for, but for those with holes.
     std::pmr::vector<SilhouetteSource> sources{gl::LedgerScope::frameMemory()};
+    std::pmr::vector<MaskedSource> masked{gl::LedgerScope::frameMemory()};
 
     /// For each source: as how many layers a triangle of it counts.
     std::pmr::vector<int> layersEach{gl::LedgerScope::frameMemory()};
@@ -44,8 +51,8 @@ struct VolumeFrame {
     LightPoint center() const;
 };
 
-/// Says once in the log that holes of alpha masks are not seen: edges are the triangles', and a masked caster
-/// blocks as a whole.
+/// Says once in the log that holes of alpha masks are not seen where volumes are drawn: edges are the triangles', and a
+/// masked caster blocks as a whole.
 class AlphaMaskWarning {
   public:
     explicit AlphaMaskWarning(Device& device) : log_(device.internals().log) {}

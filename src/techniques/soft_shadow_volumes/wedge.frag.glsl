@@ -5,28 +5,16 @@
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 #include "src/techniques/soft_shadow_volumes/lifted_receiver.glsl"
 #include "src/techniques/soft_shadow_volumes/light_area.glsl"
-#include "src/techniques/soft_shadow_volumes/light_points.glsl"
 #include "src/techniques/soft_shadow_volumes/seen_edges.glsl"
+#include "src/techniques/soft_shadow_volumes/light_table.glsl"
+#include "src/techniques/soft_shadow_volumes/radiance_beyond.glsl"
 
 layout(location = 0) flat in vec3 aLight;
 layout(location = 1) flat in vec3 bLight;
 layout(location = 2) flat in float weight;
-layout(location = 2) uniform int pointCount;  // of a textured light; else 0
 layout(location = 0) out vec2 layers;         // x: additive, y: subtractive
 layout(location = 1) out float evaluations;
 layout(location = 2) out vec4 colored;        // of a textured light: additive less subtractive, for each channel
-
-// The share of a textured light's radiance beyond the edge: what the thesis has in a table of four dimensions. Of a
-// channel that is black all over, the share of its points.
-vec3 radianceBeyond(LightFrame frame, SeenEdge edge) {
-    vec4 beyond = vec4(0.0), all = vec4(0.0);
-    for (int i = 0; i < pointCount; ++i) {
-        vec4 radiance = vec4(radiances[i].rgb, 1.0);
-        all += radiance;
-        beyond += isCrossed(frame, edge, samples[i].xy) ? radiance : vec4(0.0);
-    }
-    return mix(vec3(beyond.a / all.a), beyond.rgb / max(all.rgb, 1e-30), greaterThan(all.rgb, vec3(0.0)));
-}
 
 void main() {
     layers = vec2(0.0);
@@ -42,7 +30,7 @@ void main() {
     if (!partBeforeLight(frame, edge, from, to)) return;
     // A face that shows the light its front shows the receiver, on the other side of the edge, its back.
     float blockers = (edge.hasLeft ? weight : -weight) * frame.handedness * 0.5;
-    vec3 share = pointCount > 0 ? radianceBeyond(frame, edge) : vec3(shareBeyond(from, to));
+    vec3 share = volume.lightKind.w == 1 ? radianceBeyond(edge, from, to) : vec3(shareBeyond(from, to));
     colored = vec4(blockers * share, 0.0);
     float change = blockers * dot(share, vec3(1.0 / 3.0));
     layers = vec2(max(change, 0.0), max(-change, 0.0));

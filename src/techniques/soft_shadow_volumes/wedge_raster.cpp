@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* wedgeVertices = "src/techniques/soft_shadow_volumes/wedge.vert.glsl";
 constexpr int verticesPerWedge = 24;
-constexpr GLint halfLocation = 0, eyeLocation = 1, pointsLocation = 2;
+constexpr GLint halfLocation = 0, eyeLocation = 1;
 
 gl::Texture makeTexture(glm::ivec2 size_px, gl::Format format, std::string_view label) {
     return gl::Texture({.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = label});
@@ -170,8 +170,7 @@ void WedgeRaster::render(const VolumeFrame& frame, const AreaLight& light, const
         for (int i = 0; i < (isTextured ? 3 : 2); ++i)
             glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, i, zero.data());
         wedges_.use();
-        glUniform1i(pointsLocation, isTextured ? points_.count() : 0);
-        if (isTextured) points_.bind();
+        points_.bindTable(5);
         if (options.marking == Marking::stencil) {
             const GLint unmarked = 0;
             glStencilMask(0xff);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
-// For each large tile a list, as bits, of the clusters of triangles that may lie between its receivers and the light's
-// centre.
+// For each large tile a list, as bits, of the clusters of triangles that may lie between its receivers and the light, or the
+// light's centre.
 layout(local_size_x = 64) in;
 
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
@@ -12,11 +12,12 @@ layout(std430, binding = 1) readonly buffer Clusters { TriangleCluster clusters[
 layout(std430, binding = 3) writeonly buffer Lists { uint lists[]; };
 
 layout(location = 0) uniform uint clusterCount;
+layout(location = 1) uniform bool toCenter;
 
 void main() {
     TileBounds tile = largeTileBounds(ivec2(gl_WorkGroupID.xy));
     bool isEmpty = tile.low.x > tile.high.x;
-    prepareShaft(tile, centerBounds(tile));
+    prepareShaft(tile, toCenter ? centerBounds(tile) : lightBounds(tile));
     uint words = (clusterCount + 31u) / 32u;
     uint list = (gl_WorkGroupID.y * uint(volume.tiles.y) + gl_WorkGroupID.x) * words;
     for (uint word = gl_LocalInvocationIndex; word < words; word += 64u) {
