@@ -69,6 +69,7 @@ Device::Internals::Internals(DeviceOptions options)
       renderer(text(GL_RENDERER)),
       version(text(GL_VERSION)),
       maxTextureSize_px(integer(GL_MAX_TEXTURE_SIZE)),
+      largestStorageBlock_bytes(std::size_t(integer(GL_MAX_SHADER_STORAGE_BLOCK_SIZE))),
       maxLayers(std::min(integer(GL_MAX_ARRAY_TEXTURE_LAYERS), integer(GL_MAX_FRAMEBUFFER_LAYERS))),
       layerFromVertexShader(epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array")),
       keepHostState(options.keepHostState) {

@@ -26,6 +26,7 @@ struct Device::Internals {
     std::string renderer;
     std::string version;
     int maxTextureSize_px = 0;
+    std::size_t largestStorageBlock_bytes = 0;
     int maxLayers = 0;
     bool isSoftware = false;
     /// The vertex shader may write gl_Layer (ARB_shader_viewport_layer_array), so that one instanced draw

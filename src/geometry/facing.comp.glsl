@@ -4,13 +4,13 @@
 // all its edges agree.
 layout(local_size_x = 256) in;
 
-layout(std430, binding = 0) readonly buffer Positions { float positions[]; };
-layout(std430, binding = 1) readonly buffer Indices { uint indices[]; };
-layout(std430, binding = 2) writeonly buffer Facings { int facings[]; };
+#include "src/geometry/silhouettes_io.h"
 
-layout(location = 0) uniform vec4 lightMesh;
-layout(location = 1) uniform uint triangleCount;
-layout(location = 2) uniform uint firstFacing;
+layout(std430) readonly buffer Positions { float positions[]; };
+layout(std430) readonly buffer Indices { uint indices[]; };
+layout(std430) writeonly buffer Facings { int facings[]; };
+
+layout(std140) uniform Constants { FacingConstants mesh; };
 
 vec3 corner(uint index) {
     uint i = 3u * indices[index];
@@ -19,13 +19,13 @@ vec3 corner(uint index) {
 
 void main() {
     uint triangle = gl_GlobalInvocationID.x;
-    if (triangle >= triangleCount) return;
+    if (triangle >= mesh.triangleCount) return;
     vec3 a = corner(3u * triangle);
     // "precise" keeps compilers from fusing products into sums, which would part us from the CPU.
     precise vec3 u = corner(3u * triangle + 1u) - a;
     precise vec3 v = corner(3u * triangle + 2u) - a;
     precise vec3 normal = vec3(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
-    precise vec3 towardsLight = lightMesh.xyz - lightMesh.w * a;
+    precise vec3 towardsLight = mesh.lightMesh.xyz - mesh.lightMesh.w * a;
     precise float side = (normal.x * towardsLight.x + normal.y * towardsLight.y) + normal.z * towardsLight.z;
-    facings[firstFacing + triangle] = side > 0.0 ? 1 : -1;
+    facings[mesh.firstFacing + triangle] = side > 0.0 ? 1 : -1;
 }

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <string>
 
+#include "src/geometry/gather_vertices_io.h"
+#include "src/gl/pass.h"
+
 namespace penumbra {
 namespace {
 
@@ -28,26 +31,26 @@ struct Layout {
     std::size_t offset, stride, wordsEach;  ///< as gather_vertices.comp.glsl has them
 };
 
-void gather(Device::Internals& device, GLuint source, std::size_t count, const Layout& layout,
+void gather(Device::Internals& device, gl::HostBuffer source, std::size_t count, const Layout& layout,
             const gl::Buffer& target) {
     if (!device.gatherVertices) {
         device.gatherVertices.emplace(device.shaders,
                                       std::vector<std::string>{"src/geometry/gather_vertices.comp.glsl"});
     }
-    device.gatherVertices->use();
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, source);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, target.name());
-    glUniform1ui(1, GLuint(count));
-    glUniform1ui(2, GLuint(layout.offset));
-    glUniform1ui(3, GLuint(layout.stride));
-    glUniform1ui(4, GLuint(layout.wordsEach));
+    gl::Pass pass(*device.gatherVertices);
+    pass.bind("Source", source).bind("Target", target);
     for (std::size_t first = 0; first < count; first += largestDispatch) {
         const std::size_t now = std::min(count - first, largestDispatch);
-        glUniform1ui(0, GLuint(first));
-        glDispatchCompute(GLuint((now + group - 1) / group), 1, 1);
+        pass.constants(GatherConstants{.first = uint(first),
+                                       .count = uint(count),
+                                       .offset = uint(layout.offset),
+                                       .stride = uint(layout.stride),
+                                       .wordsEach = uint(layout.wordsEach)})
+            .dispatch((now + group - 1) / group);
     }
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT |
-                    GL_ELEMENT_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    // Meshes hand their buffers out by name.
+    target.record().makeVisible(GL_SHADER_STORAGE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT |
+                                GL_ELEMENT_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 }  // namespace
@@ -60,7 +63,7 @@ void gatherVectors(Device::Internals& device, const HostVectors& source, std::si
             "offset and stride must be multiples of four bytes");
     if (count == 0) return;
     requireHolds(source.buffer, source.offset_bytes + (count - 1) * stride_bytes + tight_bytes, what);
-    gather(device, source.buffer, count,
+    gather(device, {source.buffer}, count,
            {source.offset_bytes / word_bytes, stride_bytes / word_bytes, components}, target);
 }
 
@@ -76,7 +79,7 @@ void gatherIndices(Device::Internals& device, const Mesh::HostSource& source, co
     const gl::Buffer words((size_bytes + word_bytes - 1) / word_bytes * word_bytes, "host's indices");
     glCopyNamedBufferSubData(source.indexBuffer, words.name(), GLintptr(source.indexOffset_bytes), 0,
                              GLsizeiptr(size_bytes));
-    gather(device, words.name(), source.indexCount, {0, 1, std::size_t(isWide ? 1 : 0)}, target);
+    gather(device, {words.name()}, source.indexCount, {0, 1, std::size_t(isWide ? 1 : 0)}, target);
 }
 
 }  // namespace penumbra

@@ -38,9 +38,9 @@ class SilhouetteExtractor {
     /// more edges or triangles than a dispatch can reach (16 million on the smallest devices).
     void extract(std::span<const SilhouetteSource> sources, const LightPoint& point, DrawShape shape);
 
-    /// The list: of SilhouetteEdge, silhouettes_io.h.
+    /// The list (SilhouetteEdge, silhouettes_io.h).
     const gl::Buffer& edges() const { return silhouettes_; }
-    /// Binds the list to storage block `block`.
+    /// Binds it to storage block `block`, for passes that number what they bind.
     void bindEdges(unsigned block) const;
 
     /// Holds one SilhouetteCommands: for glDrawArraysIndirect at offset 0, for glDispatchComputeIndirect
@@ -49,6 +49,8 @@ class SilhouetteExtractor {
     static constexpr std::size_t dispatchOffset = offsetof(SilhouetteCommands, groupsX);
 
     /// For each triangle of source after source, an int: +1 where it shows its front, -1 where its back.
+    const gl::Buffer& facings() const { return facings_; }
+    /// Binds them as bindEdges does.
     void bindFacings(unsigned block) const;
 
     /// Number of edges examined.
@@ -59,6 +61,8 @@ class SilhouetteExtractor {
     unsigned countFound() const;
 
   private:
+    void findFacings(std::span<const SilhouetteSource> sources, const LightPoint& point);
+
     gl::Program facing_, mark_, scan_, write_;
     gl::Buffer facings_, marks_, offsets_, silhouettes_, commands_;
     std::size_t edgeCount_ = 0, vertexCount_ = 0;

@@ -58,10 +58,7 @@ class SilhouetteExtractorTest : public studio::TechniqueTest {
 
     static std::vector<SilhouetteEdge> readList(const SilhouetteExtractor& extractor) {
         std::vector<SilhouetteEdge> list(extractor.countFound());
-        extractor.bindEdges(0);
-        GLint buffer = 0;
-        glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 0, &buffer);
-        glGetNamedBufferSubData(GLuint(buffer), 0, GLsizeiptr(std::span(list).size_bytes()), list.data());
+        if (!list.empty()) extractor.edges().read(std::as_writable_bytes(std::span(list)));
         return list;
     }
 
@@ -193,11 +190,7 @@ TEST_F(SilhouetteExtractorTest, DecidesFacingAsTheCpuDoesToTheLastBit) {
         const LightPoint light(4.0 * corner(0) - 1.7 * corner(1) - 1.3 * corner(2), 1);
         extractor.extract(std::vector<SilhouetteSource>{{&mesh, glm::dmat4(1)}}, light, {});
         std::vector<int> facings(torus.indices.size() / 3);
-        extractor.bindFacings(0);
-        GLint buffer = 0;
-        glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, 0, &buffer);
-        glGetNamedBufferSubData(GLuint(buffer), 0, GLsizeiptr(std::span(facings).size_bytes()),
-                                facings.data());
+        extractor.facings().read(std::as_writable_bytes(std::span(facings)));
         for (std::size_t f = 0; f < facings.size(); ++f) {
             std::array<glm::vec3, 3> triangle;
             for (std::size_t k = 0; k < 3; ++k)

@@ -3,9 +3,10 @@
 // Marks the silhouette edges of a mesh, block by block.
 layout(local_size_x = 256) in;
 
+#include "src/geometry/silhouettes_io.h"
 #include "src/geometry/silhouette_block.glsl"
 
-layout(std430, binding = 4) writeonly buffer Marks { uint marks[]; };
+layout(std430) writeonly buffer Marks { uint marks[]; };
 
 shared uint words[wordsPerBlock];
 
@@ -14,7 +15,7 @@ void main() {
     if (lane < wordsPerBlock) words[lane] = 0u;
     barrier();
     uint edge = gl_GlobalInvocationID.x;
-    if (edge < edgeCount && silhouetteWeight(edges[edge]) != 0) atomicOr(words[lane >> 5], 1u << (lane & 31u));
+    if (edge < mesh.edgeCount && silhouetteWeight(edges[edge]) != 0) atomicOr(words[lane >> 5], 1u << (lane & 31u));
     barrier();
-    if (lane < wordsPerBlock) marks[(firstBlock + gl_WorkGroupID.x) * wordsPerBlock + lane] = words[lane];
+    if (lane < wordsPerBlock) marks[(mesh.firstBlock + gl_WorkGroupID.x) * wordsPerBlock + lane] = words[lane];
 }

@@ -7,13 +7,11 @@ layout(local_size_x = 256) in;
 
 const uint wordsPerBlock = 8u;
 
-layout(std430, binding = 0) readonly buffer Marks { uint marks[]; };
-layout(std430, binding = 1) writeonly buffer Offsets { uint offsets[]; };
-layout(std430, binding = 2) writeonly buffer Commands { SilhouetteCommands commands; };
+layout(std430) readonly buffer Marks { uint marks[]; };
+layout(std430) writeonly buffer Offsets { uint offsets[]; };
+layout(std430) writeonly buffer Commands { SilhouetteCommands commands; };
 
-layout(location = 0) uniform uint blockCount;
-layout(location = 1) uniform uint verticesPerEdge;
-layout(location = 2) uniform uint instances;
+layout(std140) uniform Constants { ScanConstants list; };
 
 shared uint sums[256];
 
@@ -26,9 +24,9 @@ uint countIn(uint block) {
 void main() {
     // Each lane adds up a run of blocks, then all lanes' sums are scanned (Hillis and Steele 1986).
     uint lane = gl_LocalInvocationID.x;
-    uint run = (blockCount + 255u) / 256u;
-    uint begin = min(lane * run, blockCount);
-    uint end = min(begin + run, blockCount);
+    uint run = (list.blockCount + 255u) / 256u;
+    uint begin = min(lane * run, list.blockCount);
+    uint end = min(begin + run, list.blockCount);
     uint sum = 0u;
     for (uint block = begin; block < end; ++block) sum += countIn(block);
     sums[lane] = sum;
@@ -47,8 +45,8 @@ void main() {
     }
     if (lane == 255u) {
         uint count = sums[255];
-        commands.vertexCount = count * verticesPerEdge;
-        commands.instanceCount = instances;
+        commands.vertexCount = count * list.verticesPerEdge;
+        commands.instanceCount = list.instances;
         commands.firstVertex = 0u;
         commands.baseInstance = 0u;
         commands.groupsX = (count + 63u) / 64u;

@@ -3,26 +3,22 @@
 // Writes the marked edges into the list, in the order of the mesh's edges.
 layout(local_size_x = 256) in;
 
-#include "src/geometry/silhouette_block.glsl"
 #include "src/geometry/silhouettes_io.h"
+#include "src/geometry/silhouette_block.glsl"
 
-layout(std430, binding = 0) readonly buffer Positions { float positions[]; };
-layout(std430, binding = 4) readonly buffer Marks { uint marks[]; };
-layout(std430, binding = 5) readonly buffer Offsets { uint offsets[]; };
-layout(std430, binding = 6) writeonly buffer Silhouettes { SilhouetteEdge silhouettes[]; };
-
-layout(location = 3) uniform mat4 lightFromMesh;
-layout(location = 4) uniform uint caster;
-layout(location = 5) uniform uint firstVertex;
+layout(std430) readonly buffer Positions { float positions[]; };
+layout(std430) readonly buffer Marks { uint marks[]; };
+layout(std430) readonly buffer Offsets { uint offsets[]; };
+layout(std430) writeonly buffer Silhouettes { SilhouetteEdge silhouettes[]; };
 
 vec3 positionLight(uint vertex) {
     vec3 posMesh = vec3(positions[3u * vertex], positions[3u * vertex + 1u], positions[3u * vertex + 2u]);
-    return (lightFromMesh * vec4(posMesh, 1.0)).xyz;
+    return (mesh.lightFromMesh * vec4(posMesh, 1.0)).xyz;
 }
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
-    uint block = firstBlock + gl_WorkGroupID.x;
+    uint block = mesh.firstBlock + gl_WorkGroupID.x;
     uint word = lane >> 5;
     uint bits = marks[block * wordsPerBlock + word];
     uint bit = 1u << (lane & 31u);
@@ -30,6 +26,6 @@ void main() {
     uint rank = offsets[block] + uint(bitCount(bits & (bit - 1u)));
     for (uint i = 0u; i < word; ++i) rank += uint(bitCount(marks[block * wordsPerBlock + i]));
     Edge edge = edges[gl_GlobalInvocationID.x];
-    silhouettes[rank] = SilhouetteEdge(positionLight(edge.a), silhouetteWeight(edge), positionLight(edge.b), caster,
-                                       firstVertex + edge.a, firstVertex + edge.b, 0u, 0u);
+    silhouettes[rank] = SilhouetteEdge(positionLight(edge.a), silhouetteWeight(edge), positionLight(edge.b), mesh.caster,
+                                       mesh.firstVertex + edge.a, mesh.firstVertex + edge.b, 0u, 0u);
 }

@@ -3,12 +3,10 @@
 #ifndef PENUMBRA_SILHOUETTES_IO_H
 #define PENUMBRA_SILHOUETTES_IO_H
 
+#include "src/gl/shared_types.h"
+
 #ifdef __cplusplus
-#include <cstdint>
-#include <glm/glm.hpp>
 namespace penumbra {
-using glm::vec3;
-using uint = std::uint32_t;
 #endif
 
 // An edge that the light's point sees as a silhouette. Seen from there and walking from a to b, the surface
@@ -23,6 +21,28 @@ struct SilhouetteEdge {
     uint b;
     uint unused0;
     uint unused1;
+};
+
+// A mesh, and where its triangles' facings begin in the list of all meshes.
+SHARED_STRUCT FacingConstants {
+    vec4 lightMesh;  // the light's point, in mesh space, homogeneous
+    uint triangleCount;
+    uint firstFacing;
+};
+
+SHARED_STRUCT SilhouetteConstants {
+    mat4 lightFromMesh;
+    uint edgeCount;
+    uint firstFacing;
+    uint firstBlock;
+    uint caster;       // as of SilhouetteEdge
+    uint firstVertex;  // what its vertices are counted from
+};
+
+SHARED_STRUCT ScanConstants {
+    uint blockCount;
+    uint verticesPerEdge;  // of SilhouetteCommands
+    uint instances;
 };
 
 // Counts on the device, ready for indirect calls.

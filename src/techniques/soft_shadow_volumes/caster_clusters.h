@@ -6,10 +6,17 @@
 #include "src/device_internals.h"
 #include "src/gl/buffer.h"
 #include "src/gl/program.h"
-#include "src/gl/texture.h"
 #include "src/techniques/soft_shadow_volumes/volume_frame.h"
 
 namespace penumbra {
+
+/// Where the receivers are.
+struct Receivers {
+    const gl::Buffer& tileBounds;  ///< of small tiles
+    const gl::Texture& depths;     ///< of each texel, lifted (lifted_receiver.glsl)
+
+    void bindTo(gl::Pass& pass) const { pass.bind("Bounds", tileBounds).bind("liftedDepths", depths); }
+};
 
 class CasterClusters {
   public:
@@ -22,17 +29,16 @@ class CasterClusters {
     /// Makes room for all that the frame may add at a time.
     void allocate(const VolumeFrame& frame);
     void clear() { count_ = 0; }
-    /// Adds clusters of a caster, from its `first` on, as many as fit; returns how many. `cutsLight`: the caster may cut
-    /// through the light: faces that do are left out as edges leave them out.
-    unsigned add(const SilhouetteSource& source, bool cutsLight, unsigned first);
+    /// Adds clusters of a mesh, from the one with `firstTriangle` on, as many as fit; returns how many.
+    unsigned add(const FrameBinding& binding, const Mesh& mesh, MeshConstants constants);
     unsigned count() const { return count_; }
     bool isFull() const { return count_ == largestBatch; }
 
     enum class Towards { center, light };
     /// Lists what has been added. `tileBounds`: where the receivers of small tiles are.
-    void list(const VolumeFrame& frame, const gl::Buffer& tileBounds, Towards towards);
-    /// Binds, as storage from 0 on, the tiles' bounds, the clusters, their triangles and the lists.
-    void bind(const gl::Buffer& tileBounds) const;
+    void list(const VolumeFrame& frame, const FrameBinding& binding, const gl::Buffer& tileBounds, Towards towards);
+    /// `Clusters`, their `Triangles` and the `Lists`.
+    void bindTo(gl::Pass& pass) const;
 
     std::size_t size_bytes() const;
 

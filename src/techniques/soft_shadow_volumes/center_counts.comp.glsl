@@ -13,7 +13,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/soft_shadow_volumes/tile_shaft.glsl"
 #include "src/techniques/soft_shadow_volumes/near_clusters.glsl"
 
-layout(binding = 0, r32i) uniform iimage2D centerCounts;
+layout(r32ui) uniform uimage2D centerCounts;  // negative counts as in two's complement
 
 // Whether a way is walked with the light's centre to its left. Asked of both faces of an edge from the same end.
 bool hasLeft(vec3 aLight, vec3 bLight, vec3 a, vec3 b) {
@@ -24,7 +24,7 @@ bool hasLeft(vec3 aLight, vec3 bLight, vec3 a, vec3 b) {
 // rounding of edge-on may be turned, and adds -1 to what its neighbours have twice.
 int layersOf(LightFrame frame, vec3 posLight, LightTriangle triangle) {
     float ofReceiver = dot(triangle.plane, vec4(posLight, 1.0));
-    float ofLight = volume.lightKind.x == shapeDistant ? triangle.plane.z : triangle.plane.w;
+    float ofLight = volume.light.shape == shapeDistant ? triangle.plane.z : triangle.plane.w;
     if (sign(ofReceiver) * sign(ofLight) >= 0.0) return 0;
     vec3 a = unitPlace(frame, posLight, triangle.a.xyz), b = unitPlace(frame, posLight, triangle.b.xyz),
          c = unitPlace(frame, posLight, triangle.c.xyz);
@@ -36,7 +36,7 @@ int layersOf(LightFrame frame, vec3 posLight, LightTriangle triangle) {
 
 // Whether the way from the receiver to the light's centre may meet the box (separating axes: Gottschalk et al. 1996).
 bool mayCross(vec3 posLight, TriangleCluster cluster) {
-    vec3 way = volume.lightKind.x == shapeDistant ? vec3(0.0, 0.0, max(volume.lightSize.w - posLight.z, 0.0)) : -posLight;
+    vec3 way = volume.light.shape == shapeDistant ? vec3(0.0, 0.0, max(volume.highest_m - posLight.z, 0.0)) : -posLight;
     vec3 halfWay = 0.5 * way, reach = 0.5 * (cluster.high.xyz - cluster.low.xyz);
     vec3 between = posLight + halfWay - 0.5 * (cluster.low.xyz + cluster.high.xyz);
     reach += shaftRounding * (abs(posLight) + abs(cluster.low.xyz) + abs(cluster.high.xyz));
@@ -46,7 +46,7 @@ bool mayCross(vec3 posLight, TriangleCluster cluster) {
 }
 
 void main() {
-    uint tile = gl_WorkGroupID.y * uint(volume.tiles.x) + gl_WorkGroupID.x;
+    uint tile = gl_WorkGroupID.y * volume.smallTilesAcross + gl_WorkGroupID.x;
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     TileBounds tileBounds = bounds[tile];
     if (tileBounds.low.x > tileBounds.high.x) return;
@@ -55,7 +55,7 @@ void main() {
 
     Receiver receiver;
     LightFrame frame;
-    if (nearCount == 0u || any(greaterThanEqual(texel, volume.buffer_px.xy)) || !loadLiftedReceiver(texel, receiver) ||
+    if (nearCount == 0u || any(greaterThanEqual(texel, volume.buffer_px)) || !loadLiftedReceiver(texel, receiver) ||
         !makeLightFrame(receiver, frame) || frame.isInside)
         return;
     int count = 0;
@@ -65,5 +65,5 @@ void main() {
         for (uint j = 0u; j < clusterTriangles; ++j)
             count += layersOf(frame, receiver.posLight, triangles[cluster * clusterTriangles + j]);
     }
-    if (count != 0) imageAtomicAdd(centerCounts, texel, count);
+    if (count != 0) imageAtomicAdd(centerCounts, texel, uint(count));
 }

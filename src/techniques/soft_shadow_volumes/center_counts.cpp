@@ -6,42 +6,41 @@ namespace penumbra {
 CenterCounts::CenterCounts(Device& device)
     : count_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/center_counts.comp.glsl"}) {}
 
-void CenterCounts::countBatch(const VolumeFrame& frame, CasterClusters& clusters, const gl::Buffer& tileBounds) {
-    clusters.list(frame, tileBounds, CasterClusters::Towards::center);
-    count_.use();
-    clusters.bind(tileBounds);
-    counts_.bindImage(0, GL_READ_WRITE);
-    glUniform1ui(0, clusters.count());
-    const int rows = (frame.constants.buffer_px.y + 7) / 8;
-    const unsigned parts = (clusters.count() + clustersAtOnce - 1) / clustersAtOnce;
-    glDispatchCompute(GLuint(frame.constants.tiles.x), GLuint(rows), parts);
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                    GL_SHADER_STORAGE_BARRIER_BIT);
+void CenterCounts::countBatch(const VolumeFrame& frame, const FrameBinding& binding, CasterClusters& clusters,
+                              const Receivers& receivers) {
+    clusters.list(frame, binding, receivers.tileBounds, CasterClusters::Towards::center);
+    const VolumeConstants& constants = frame.constants;
+    ClusterConstants listed{};
+    listed.count = clusters.count();
+    gl::Pass(count_)
+        .constants(listed)
+        .bind(binding)
+        .bind(clusters)
+        .bind(receivers)
+        .bind("centerCounts", counts_)
+        .dispatch(constants.smallTilesAcross, std::size_t(constants.buffer_px.y + 7) / 8,
+                  (clusters.count() + clustersAtOnce - 1) / clustersAtOnce);
     clusters.clear();
 }
 
-void CenterCounts::count(const VolumeFrame& frame, CasterClusters& clusters, const gl::Buffer& tileBounds,
-                         const gl::Texture& depth) {
-    const glm::ivec2 size_px(frame.constants.buffer_px);
-    if (counts_.name() == 0 || counts_.width_px() != size_px.x || counts_.height_px() != size_px.y) {
-        counts_ = {};
-        counts_ = gl::Texture({.width_px = size_px.x,
-                               .height_px = size_px.y,
-                               .format = GL_R32I,
-                               .label = "soft-volumes/layers at the centre"});
-    }
-    const int none = 0;
-    glClearTexImage(counts_.name(), 0, GL_RED_INTEGER, GL_INT, &none);
-    depth.bind(4);
+void CenterCounts::count(const VolumeFrame& frame, const FrameBinding& binding, CasterClusters& clusters,
+                         const Receivers& receivers) {
+    counts_.fit({.width_px = frame.constants.buffer_px.x,
+                 .height_px = frame.constants.buffer_px.y,
+                 .format = gl::Format::r32ui,
+                 .label = "soft-volumes/layers at the centre"});
+    counts_.clear();
     clusters.clear();
     for (std::size_t i = 0; i < frame.sources.size(); ++i) {
-        const unsigned ofSource = CasterClusters::countOf(*frame.sources[i].mesh);
-        for (unsigned first = 0; first < ofSource;) {
-            first += clusters.add(frame.sources[i], frame.cutsLight[i], first);
-            if (clusters.isFull()) countBatch(frame, clusters, tileBounds);
+        const Mesh& mesh = *frame.sources[i].mesh;
+        MeshConstants constants = meshConstants(frame, i, mesh.indices().size() / 3);
+        for (unsigned added = 0; added < CasterClusters::countOf(mesh);) {
+            constants.firstTriangle = added * clusterTriangles;
+            added += clusters.add(binding, mesh, constants);
+            if (clusters.isFull()) countBatch(frame, binding, clusters, receivers);
         }
     }
-    if (clusters.count() > 0) countBatch(frame, clusters, tileBounds);
+    if (clusters.count() > 0) countBatch(frame, binding, clusters, receivers);
 }
 
 }  // namespace penumbra

@@ -11,15 +11,15 @@ class CenterCounts {
   public:
     explicit CenterCounts(Device& device);
 
-    /// Counts for all texels of the V-buffer. The frame's constants and the view must be bound; `tileBounds` says
-    /// where the receivers of its small tiles are, `depth` how far they are.
-    void count(const VolumeFrame& frame, CasterClusters& clusters, const gl::Buffer& tileBounds,
-               const gl::Texture& depth);
+    /// Counts for all texels of the V-buffer.
+    void count(const VolumeFrame& frame, const FrameBinding& binding, CasterClusters& clusters,
+               const Receivers& receivers);
 
-    const gl::Texture& counts() const { return counts_; }  ///< R32I
+    const gl::Texture& counts() const { return counts_; }  ///< R32UI: two's complement
 
   private:
-    void countBatch(const VolumeFrame& frame, CasterClusters& clusters, const gl::Buffer& tileBounds);
+    void countBatch(const VolumeFrame& frame, const FrameBinding& binding, CasterClusters& clusters,
+                    const Receivers& receivers);
 
     gl::Program count_;
     gl::Texture counts_;

@@ -6,29 +6,24 @@ layout(local_size_x = 32) in;
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 #include "src/techniques/soft_shadow_volumes/mesh_faces.glsl"
 
-layout(std430, binding = 2) writeonly buffer Triangles { LightTriangle triangles[]; };
-layout(std430, binding = 3) writeonly buffer Clusters { TriangleCluster clusters[]; };
-
-layout(location = 4) uniform uint triangleCount;
-layout(location = 5) uniform bool cutsLight;  // see soft_gather.comp.glsl
-layout(location = 6) uniform uint firstTriangle;  // of the mesh
-layout(location = 7) uniform uint firstCluster;   // in the list
+layout(std430) writeonly buffer Triangles { LightTriangle triangles[]; };
+layout(std430) writeonly buffer Clusters { TriangleCluster clusters[]; };
 
 shared vec3 lows[clusterTriangles], highs[clusterTriangles];
 
 void main() {
-    uint lane = gl_LocalInvocationIndex, triangle = firstTriangle + gl_GlobalInvocationID.x;
-    uint cluster = firstCluster + gl_WorkGroupID.x;
+    uint lane = gl_LocalInvocationIndex, triangle = mesh.firstTriangle + gl_GlobalInvocationID.x;
+    uint cluster = mesh.firstCluster + gl_WorkGroupID.x;
     lows[lane] = vec3(3e38);
     highs[lane] = vec3(-3e38);
     vec4 plane = vec4(0.0);
     vec3 a = vec3(0.0), b = a, c = a;
-    if (triangle < triangleCount) {
+    if (triangle < mesh.count) {
         a = positionLight(indices[3u * triangle]);
         b = positionLight(indices[3u * triangle + 1u]);
         c = positionLight(indices[3u * triangle + 2u]);
         // What collapses has no edges either.
-        bool isThere = a != b && b != c && c != a && !(cutsLight && isMissing(2u * triangle));
+        bool isThere = a != b && b != c && c != a && !(mesh.cutsLight && isMissing(2u * triangle));
         if (isThere) {
             plane = facePlane(2u * triangle);
             lows[lane] = min(a, min(b, c));

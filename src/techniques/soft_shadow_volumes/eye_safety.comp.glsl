@@ -7,9 +7,9 @@ layout(local_size_x = 64) in;
 #include "src/geometry/silhouettes_io.h"
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 
-layout(std430, binding = 0) readonly buffer Silhouettes { SilhouetteEdge silhouettes[]; };
-layout(std430, binding = 1) readonly buffer Commands { SilhouetteCommands commands; };
-layout(std430, binding = 2) buffer Eye { EyeState eye; };
+layout(std430) readonly buffer Silhouettes { SilhouetteEdge silhouettes[]; };
+layout(std430) readonly buffer Commands { SilhouetteCommands commands; };
+layout(std430) buffer Eye { EyeState eye; };
 
 // Some hundred roundings of the largest coordinate that enters the side's plane.
 const float tolerance = 1e-5;

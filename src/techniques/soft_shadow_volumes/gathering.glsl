@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Edges of a mesh, written down in light space. Requires mesh_faces.glsl.
 
-layout(std430, binding = 2) buffer Eye { EyeState eye; };
-layout(std430, binding = 5) writeonly buffer LightEdges { LightEdge lightEdges[]; };
+layout(std430) buffer Eye { EyeState eye; };
+layout(std430) writeonly buffer LightEdges { LightEdge lightEdges[]; };
 
 // Edges for which there is no room are counted all the same.
 void gather(LightEdge edge) {
     uint place = atomicAdd(eye.edgeCount, 1u);
-    if (place < 32u * uint(volume.tiles.w)) lightEdges[place] = edge;
+    if (place < 32u * volume.listWords) lightEdges[place] = edge;
 }
 
 // From the end that comes first, so that an edge is asked the same question as the sides of its faces are.

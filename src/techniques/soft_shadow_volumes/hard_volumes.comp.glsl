@@ -6,20 +6,20 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/common/view.glsl"
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 
-layout(binding = 3) uniform sampler2D volumeCounts;
-layout(std430, binding = 2) readonly buffer Eye { EyeState eye; };
-layout(binding = 0) uniform writeonly image2D visibility;
+uniform sampler2D volumeCounts;
+layout(std430) readonly buffer Eye { EyeState eye; };
+uniform writeonly image2D visibility;
 
 // The light's centre is above the surface's horizon, and the surface on the side to which the light emits.
 bool isFacing(Receiver receiver) {
-    vec3 towardsLight = volume.lightKind.x == shapeDistant ? vec3(0.0, 0.0, 1.0) : -receiver.posLight;
+    vec3 towardsLight = volume.light.shape == shapeDistant ? vec3(0.0, 0.0, 1.0) : -receiver.posLight;
     return dot(receiver.normalLight, towardsLight) > 0.0 &&
-           (volume.lightKind.y == 0 || receiver.posLight.z < volume.lightSize.z);
+           (!volume.light.isOneSided || receiver.posLight.z < volume.plane_m);
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
+    if (any(greaterThanEqual(pixel, view.size_px))) return;
     Receiver receiver;
     float seen = 1.0;
     if (loadReceiver(pixel, receiver)) {

@@ -9,7 +9,6 @@ HardVolumes::HardVolumes(Device& device)
     : device_(device),
       counter_(device),
       resolve_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/hard_volumes.comp.glsl"}),
-      constants_("hard-volumes/constants"),
       alphaMaskWarning_(device) {}
 
 void HardVolumes::describe(ParameterVisitor& visitor) {
@@ -28,20 +27,18 @@ void HardVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     alphaMaskWarning_.check(inputs.casters);
     VolumeFrame frame(inputs, 1, VolumeFrame::Count::drawn);
     if (openMeshes_ == int(OpenMeshes::capped)) frame.capHoles(device_);
-    constants_.write(frame.constants);
-    view_.bind(inputs.view, frame.lightFromWorld);
-    constants_.bindUniform(1);
+    binding_.fill(inputs.view, frame);
     {
         const auto pass = timers_.pass("hard-volumes/count");
-        counter_.render(frame, Counting(counting_));
+        counter_.render(frame, binding_, Counting(counting_));
     }
     {
         const auto pass = timers_.pass("hard-volumes/resolve");
-        resolve_.use();
-        counter_.bind(3, 2);
-        bindVisibility(out, 0);
-        gl::dispatchPixels(out.width_px(), out.height_px());
-        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+        gl::Pass(resolve_)
+            .bind(binding_)
+            .bind(counter_)
+            .bind("visibility", imageOf(out))
+            .dispatchPixels(out.width_px(), out.height_px());
     }
 }
 

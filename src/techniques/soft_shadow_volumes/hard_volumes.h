@@ -27,8 +27,7 @@ class HardVolumes final : public Technique {
     Device& device_;
     VolumeCounter counter_;
     gl::Program resolve_;
-    ViewBinding view_;
-    gl::ConstantBuffer<VolumeConstants> constants_;
+    FrameBinding binding_;
     AlphaMaskWarning alphaMaskWarning_;
     gl::PassTimers timers_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the receivers of a large tile are, for groups of 64. Requires tile_shaft.glsl.
 
-layout(std430, binding = 0) readonly buffer Bounds { TileBounds bounds[]; };
+layout(std430) readonly buffer Bounds { TileBounds bounds[]; };
 
 shared TileBounds parts[64];
 
@@ -12,7 +12,7 @@ TileBounds boundsOf(ivec2 first, ivec2 end) {
     TileBounds part = none;
     int width = end.x - first.x, count = width * (end.y - first.y);
     for (int i = int(lane); i < count; i += 64) {
-        TileBounds small = bounds[(first.y + i / width) * volume.tiles.x + first.x + i % width];
+        TileBounds small = bounds[(first.y + i / width) * int(volume.smallTilesAcross) + first.x + i % width];
         if (small.low.x > small.high.x) continue;
         part.low = min(part.low, small.low);
         part.high = max(part.high, small.high);
@@ -28,6 +28,6 @@ TileBounds boundsOf(ivec2 first, ivec2 end) {
 }
 
 TileBounds largeTileBounds(ivec2 largeTile) {
-    ivec2 smallTiles = (volume.buffer_px.xy + 7) / 8, first = largeTile * volume.tiles.z;
-    return boundsOf(first, min(first + volume.tiles.z, smallTiles));
+    ivec2 smallTiles = (volume.buffer_px + 7) / 8, first = largeTile * int(volume.smallTilesALargeOne);
+    return boundsOf(first, min(first + int(volume.smallTilesALargeOne), smallTiles));
 }

@@ -49,7 +49,7 @@ uint addEdge(LightFrame frame, SeenEdge edge, int change) {
     vec2 from, to;
     if (!partBeforeLight(frame, edge, from, to)) return 0u;
     leastChange = min(leastChange, abs(change));
-    vec3 beyond = volume.lightKind.w == 1 ? radianceBeyond(edge, from, to) : vec3(shareBeyond(from, to));
+    vec3 beyond = volume.light.isTextured ? radianceBeyond(edge, from, to) : vec3(shareBeyond(from, to));
     meanChangeFixed += change * ivec3(beyond * fixedOne + 0.5);
     // Only points in the directions between the edge's ends can lie behind it; they follow each other in the list, unless
     // they have been put elsewhere.
@@ -103,7 +103,7 @@ SeenFace seeFace(LightFrame frame, vec3 posLight, LightEdge record) {
     face.atReceiver = dot(record.planes[1], vec4(posLight, 1.0));
     face.fromCenter = unitFromLight * posLight * lengths2;
     face.square = lengths2.xz;
-    face.outside = dot(posLight, posLight) - volume.lightSize.x * volume.lightSize.x;
+    face.outside = dot(posLight, posLight) - volume.light.halfSize.x * volume.light.halfSize.x;
     return face;
 }
 

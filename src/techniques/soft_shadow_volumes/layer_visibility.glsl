@@ -6,7 +6,7 @@ const float texturedLimit = 6.0;  // points of mean radiance that the brightest 
 vec3 visibilityOf(LightFrame frame, int atCenter) {
     vec3 seen = vec3(0.0), all = vec3(0.0), layers = vec3(0.0);
     int points = 0, covered = 0, layerSum = 0, least = 1 << 20, most = 0;
-    bool isTextured = volume.lightKind.w == 1 && !isSliver;
+    bool isTextured = volume.light.isTextured && !isSliver;
     bool isCut = horizonSide(frame) == 0;
     if (edgesCounted == 0) return vec3(atCenter <= 0 ? 1.0 : 0.0);
     for (int i = 0; i < SAMPLES; ++i) {

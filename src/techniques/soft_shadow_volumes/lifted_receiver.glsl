@@ -19,11 +19,11 @@ float liftedDepth(Receiver receiver) {
     return clip.z / clip.w;
 }
 
-layout(binding = 4) uniform sampler2D liftedDepths;
+uniform sampler2D liftedDepths;
 
 // False where the texel's pixel shows no receiver.
 bool loadLiftedReceiver(ivec2 texel, out Receiver receiver) {
-    ivec2 pixel = texel * volume.buffer_px.z;
+    ivec2 pixel = texel * volume.pixelsPerTexel;
     if (!loadReceiver(pixel, receiver)) return false;
     receiver.posLight = positionLight(vec2(pixel), texelFetch(liftedDepths, texel, 0).r);
     return true;

@@ -25,8 +25,8 @@ bool makeLightFrame(Receiver receiver, out LightFrame frame) {
     frame.isEndless = false;
     frame.isInside = false;
     frame.handedness = 1.0;
-    if (volume.lightKind.x == shapeDistant) {
-        frame.tangent = volume.lightSize.z;
+    if (volume.light.shape == shapeDistant) {
+        frame.tangent = volume.light.halfSize.x;
         frame.isEndless = true;
         u = vec3(frame.tangent, 0.0, 0.0);
         v = vec3(0.0, frame.tangent, 0.0);
@@ -34,17 +34,17 @@ bool makeLightFrame(Receiver receiver, out LightFrame frame) {
         frame.x = vec3(1.0 / frame.tangent, 0.0, 0.0);
         frame.y = vec3(0.0, 1.0 / frame.tangent, 0.0);
         frame.z = center;
-    } else if (volume.lightKind.x == shapeSphere) {
+    } else if (volume.light.shape == shapeSphere) {
         // The circle in which a cone from the receiver touches the sphere. All that lies in the cone, clear of the
         // sphere, is before the circle's plane or behind it as it is before the sphere or behind it.
-        float distance2 = dot(p, p), radius2 = volume.lightSize.x * volume.lightSize.x;
+        float distance2 = dot(p, p), radius2 = volume.light.halfSize.x * volume.light.halfSize.x;
         frame.isInside = distance2 <= radius2 * 1.0001;
         frame.tangent = frame.isInside ? widest : sqrt(radius2 / (distance2 - radius2));
         float distance = sqrt(distance2);
         vec3 axis = frame.isInside ? receiver.normalLight : -p / distance;
         vec3 side = normalize(abs(axis.x) < 0.7 ? cross(vec3(1.0, 0.0, 0.0), axis) : cross(vec3(0.0, 1.0, 0.0), axis));
         vec3 up = cross(axis, side);
-        float along = frame.isInside ? volume.lightSize.x : (distance2 - radius2) / distance;
+        float along = frame.isInside ? volume.light.halfSize.x : (distance2 - radius2) / distance;
         float radius = frame.tangent * along;
         u = side * radius;
         v = up * radius;
@@ -53,8 +53,8 @@ bool makeLightFrame(Receiver receiver, out LightFrame frame) {
         frame.y = up / radius;
         frame.z = axis / along;
     } else {
-        if (p.z == 0.0 || (volume.lightKind.y == 1 && p.z > 0.0)) return false;
-        vec2 size = volume.lightSize.xy;
+        if (p.z == 0.0 || (volume.light.isOneSided && p.z > 0.0)) return false;
+        vec2 size = volume.light.halfSize;
         u = vec3(size.x, 0.0, 0.0);
         v = vec3(0.0, size.y, 0.0);
         center = -p;
@@ -68,8 +68,8 @@ bool makeLightFrame(Receiver receiver, out LightFrame frame) {
     return true;
 }
 
-bool isFlatLight() { return volume.lightKind.x == shapeRect || volume.lightKind.x == shapeDisk; }
-bool isSquareLight() { return volume.lightKind.x == shapeRect; }
+bool isFlatLight() { return volume.light.shape == shapeRect || volume.light.shape == shapeDisk; }
+bool isSquareLight() { return volume.light.shape == shapeRect; }
 
 // How much higher than its centre the light's highest point is.
 float horizonReach(LightFrame frame) {

@@ -44,12 +44,12 @@ LightPoints::LightPoints(Device& device)
       makeTable_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/light_table.comp.glsl"}),
       table_({.width_px = tableColumns,
               .height_px = tableRows,
-              .format = GL_RGBA32F,
-              .filter = GL_LINEAR,
+              .format = gl::Format::rgba32f,
+              .filter = gl::Filter::linear,
               .wrap = GL_REPEAT,
               .label = "soft-volumes/light table"}) {}
 
-void LightPoints::place(const AreaLight& light, int count) {
+void LightPoints::place(const AreaLight& light, const FrameBinding& binding, int count) {
     const bool onSquare = light.shape == LightShape::rect, isTextured = light.radianceTexture != 0;
     const int wanted = isTextured ? std::min(texturedFactor * count, most) : count;
     if (count_ != wanted || onSquare_ != onSquare) {
@@ -60,20 +60,21 @@ void LightPoints::place(const AreaLight& light, int count) {
         onSquare_ = onSquare;
     }
     if (!isTextured) return;
-    radiance_.use();
-    bind();
-    glBindTextureUnit(3, light.radianceTexture);
-    glUniform1i(0, count_);
-    glDispatchCompute(GLuint(count_ + 63) / 64, 1, 1);
-    makeTable_.use();
-    table_.bindImage(0, GL_WRITE_ONLY);
-    glDispatchCompute(1, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    const gl::TextureRef picture{.name = light.radianceTexture};
+    gl::Pass(radiance_)
+        .constants(PointsConstants{.count = count_})
+        .bind("Samples", places_)
+        .bind("Radiances", radiances_)
+        .bind("radiance", picture)
+        .dispatch(std::size_t(count_ + 63) / 64);
+    gl::Pass pass(makeTable_);
+    pass.bind(binding).bind("radiance", picture).bind("table", table_).dispatch(1);
 }
 
-void LightPoints::bind() const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, places_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, radiances_.name());
+void LightPoints::bindTo(gl::Pass& pass) const {
+    if (pass.has("Samples")) pass.bind("Samples", places_);
+    if (pass.has("Radiances")) pass.bind("Radiances", radiances_);
+    if (pass.has("lightTable")) pass.bind("lightTable", table_);
 }
 
 }  // namespace penumbra

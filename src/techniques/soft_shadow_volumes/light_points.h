@@ -5,8 +5,8 @@
 #include "penumbra/light.h"
 #include "src/device_internals.h"
 #include "src/gl/buffer.h"
-#include "src/gl/program.h"
-#include "src/gl/texture.h"
+#include "src/gl/pass.h"
+#include "src/techniques/soft_shadow_volumes/volume_frame.h"
 
 namespace penumbra {
 
@@ -18,14 +18,13 @@ class LightPoints {
 
     /// Spreads `count` points over the light's unit square or disk, twice as many where it is textured, but
     /// no more than `most`; and finds what a textured light radiates around each.
-    void place(const AreaLight& light, int count);
+    void place(const AreaLight& light, const FrameBinding& binding, int count);
 
     /// Of the light they were last placed on.
     int count() const { return count_; }
-    /// Their places and radiances, for light_points.glsl.
-    void bind() const;
-    /// What a textured light radiates beyond each place on it, for radiance_beyond.glsl.
-    void bindTable(unsigned unit) const { table_.bind(unit); }
+    /// Of these, what the pass's shaders declare: `Samples`, their places; `Radiances`, what a textured light radiates
+    /// around them; and `lightTable`, what it radiates beyond each place on it.
+    void bindTo(gl::Pass& pass) const;
 
   private:
     gl::Program radiance_, makeTable_;

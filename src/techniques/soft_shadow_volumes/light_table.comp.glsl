@@ -7,8 +7,8 @@ layout(local_size_x = 512) in;
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 #include "src/techniques/soft_shadow_volumes/light_table.glsl"
 
-layout(binding = 3) uniform sampler2D radiance;
-layout(binding = 0, rgba32f) uniform writeonly image2D table;
+uniform sampler2D radiance;
+layout(rgba32f) uniform writeonly image2D table;
 
 shared vec3 sums[tableColumns];
 

@@ -7,7 +7,7 @@ const int tableRows = 128;     // from the centre to the border, where another r
 
 // Where the border is, so many quarters from the middle of the right side on.
 vec2 borderAt(float quarters) {
-    if (volume.lightKind.x != shapeRect) {
+    if (volume.light.shape != shapeRect) {
         const float quarter = 1.57079632679489661923;
         return vec2(cos(quarter * quarters), sin(quarter * quarters));
     }

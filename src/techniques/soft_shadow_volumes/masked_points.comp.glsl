@@ -19,22 +19,19 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/soft_shadow_volumes/tile_shaft.glsl"
 #include "src/techniques/soft_shadow_volumes/near_clusters.glsl"
 
-layout(std430, binding = 6) readonly buffer Indices { uint indices[]; };
-layout(std430, binding = 7) readonly buffer Uvs { vec2 uvs[]; };
-layout(binding = 6) uniform sampler2D alphaTexture;
+layout(std430) readonly buffer Indices { uint indices[]; };
+layout(std430) readonly buffer Uvs { vec2 uvs[]; };
+uniform sampler2D alphaTexture;
 // A bit a point, in layers of 32.
-layout(binding = 0, r32ui) uniform uimage2DArray hiddenPoints;
-
-layout(location = 1) uniform uint firstTriangle;  // of the mesh, that the list begins with
-layout(location = 2) uniform vec2 alpha;          // x: factor; y: cutoff
+layout(r32ui) uniform uimage2DArray hiddenPoints;
 
 const int wordCount = SAMPLES / 32 + (SAMPLES % 32 == 0 ? 0 : 1);
 uint hidden[wordCount];
 
 bool isSolid(uint triangle, vec3 share) {
-    uint first = 3u * (firstTriangle + triangle);
+    uint first = 3u * (listed.firstTriangle + triangle);
     vec2 uv = share.x * uvs[indices[first]] + share.y * uvs[indices[first + 1u]] + share.z * uvs[indices[first + 2u]];
-    return textureLod(alphaTexture, uv, 0.0).a * alpha.x >= alpha.y;
+    return textureLod(alphaTexture, uv, 0.0).a * listed.alphaFactor >= listed.alphaCutoff;
 }
 
 // Marks the points that the triangle hides from the receiver.
@@ -62,7 +59,7 @@ void markHidden(LightFrame frame, vec3 posLight, uint index) {
 }
 
 void main() {
-    uint tile = gl_WorkGroupID.y * uint(volume.tiles.x) + gl_WorkGroupID.x;
+    uint tile = gl_WorkGroupID.y * volume.smallTilesAcross + gl_WorkGroupID.x;
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     TileBounds tileBounds = bounds[tile];
     if (tileBounds.low.x > tileBounds.high.x) return;
@@ -71,7 +68,7 @@ void main() {
 
     Receiver receiver;
     LightFrame frame;
-    if (nearCount == 0u || any(greaterThanEqual(texel, volume.buffer_px.xy)) || !loadLiftedReceiver(texel, receiver) ||
+    if (nearCount == 0u || any(greaterThanEqual(texel, volume.buffer_px)) || !loadLiftedReceiver(texel, receiver) ||
         !makeLightFrame(receiver, frame) || horizonSide(frame) < 0)
         return;
     spreadPoints(frame);

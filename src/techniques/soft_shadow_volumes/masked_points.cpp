@@ -17,17 +17,16 @@ unsigned clustersOfAGroup(int samples) {
 
 }  // namespace
 
+void MaskedPoints::fitHidden(glm::ivec2 size_px, int words) {
+    hidden_.fit({.width_px = size_px.x,
+                 .height_px = size_px.y,
+                 .layers = words,
+                 .format = gl::Format::r32ui,
+                 .label = "soft-volumes/points hidden by masks"});
+}
+
 void MaskedPoints::allocate(glm::ivec2 size_px, int samples) {
-    const int words = (samples + pointsAWord - 1) / pointsAWord;
-    if (hidden_.name() == 0 || hidden_.width_px() != size_px.x || hidden_.height_px() != size_px.y ||
-        hidden_.layers() != words) {
-        hidden_ = {};
-        hidden_ = gl::Texture({.width_px = size_px.x,
-                               .height_px = size_px.y,
-                               .layers = words,
-                               .format = GL_R32UI,
-                               .label = "soft-volumes/points hidden by masks"});
-    }
+    fitHidden(size_px, (samples + pointsAWord - 1) / pointsAWord);
     if (markSamples_ == samples) return;
     mark_ = gl::Program(device_.shaders, {"src/techniques/soft_shadow_volumes/masked_points.comp.glsl"},
                         {"SAMPLES " + std::to_string(samples),
@@ -35,35 +34,44 @@ void MaskedPoints::allocate(glm::ivec2 size_px, int samples) {
     markSamples_ = samples;
 }
 
-void MaskedPoints::mark(const VolumeFrame& frame, CasterClusters& clusters, const LightPoints& points,
-                        const gl::Buffer& tileBounds, const gl::Texture& depth) {
-    if (frame.masked.empty()) return;
-    allocate(glm::ivec2(frame.constants.buffer_px), points.count());
-    const GLuint none = 0;
-    glClearTexImage(hidden_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
-    depth.bind(4);
-    const GLuint rows = GLuint(frame.constants.buffer_px.y + 7) / 8;
+void MaskedPoints::mark(const VolumeFrame& frame, const FrameBinding& binding, CasterClusters& clusters,
+                        const LightPoints& points, const Receivers& receivers) {
+    // Without any, passes still have something to bind.
+    if (frame.masked.empty()) {
+        if (hidden_.name() == 0) fitHidden(glm::ivec2(1), 1);
+        return;
+    }
+    allocate(frame.constants.buffer_px, points.count());
+    hidden_.clear();
+    const VolumeConstants& constants = frame.constants;
+    const unsigned each = clustersOfAGroup(points.count());
     for (const MaskedSource& masked : frame.masked) {
         const Mesh& mesh = *masked.source.mesh;
-        for (unsigned first = 0; first < CasterClusters::countOf(mesh);) {
+        for (unsigned done = 0; done < CasterClusters::countOf(mesh);) {
+            MeshConstants part{};
+            part.lightFromMesh = masked.source.lightFromMesh;
+            part.count = uint(mesh.indices().size() / 3);
+            part.firstTriangle = done * clusterTriangles;
             clusters.clear();
-            const unsigned added = clusters.add(masked.source, false, first);
-            clusters.list(frame, tileBounds, CasterClusters::Towards::light);
-            mark_.use();
-            clusters.bind(tileBounds);
-            points.bind();
-            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, mesh.indexBuffer());
-            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, mesh.uvBuffer());
-            glBindTextureUnit(6, masked.mask.texture);
-            hidden_.bindImage(0, GL_READ_WRITE);
-            glUniform1ui(0, added);
-            glUniform1ui(1, first * clusterTriangles);
-            glUniform2f(2, masked.mask.factor, masked.mask.cutoff);
-            const unsigned each = clustersOfAGroup(points.count());
-            glDispatchCompute(GLuint(frame.constants.tiles.x), rows, (added + each - 1) / each);
-            glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                            GL_TEXTURE_FETCH_BARRIER_BIT);
-            first += added;
+            const unsigned added = clusters.add(binding, mesh, part);
+            clusters.list(frame, binding, receivers.tileBounds, CasterClusters::Towards::light);
+            gl::Pass(mark_)
+                .constants(ClusterConstants{.count = added,
+                                            .toCenter = false,
+                                            .firstTriangle = part.firstTriangle,
+                                            .alphaFactor = masked.mask.factor,
+                                            .alphaCutoff = masked.mask.cutoff})
+                .bind(binding)
+                .bind(clusters)
+                .bind(receivers)
+                .bind(points)
+                .bind("Indices", gl::HostBuffer{mesh.indexBuffer()})
+                .bind("Uvs", gl::HostBuffer{mesh.uvBuffer()})
+                .bind("alphaTexture", gl::TextureRef{.name = masked.mask.texture})
+                .bind("hiddenPoints", hidden_)
+                .dispatch(constants.smallTilesAcross, std::size_t(constants.buffer_px.y + 7) / 8,
+                          (added + each - 1) / each);
+            done += added;
         }
     }
     clusters.clear();

@@ -11,15 +11,15 @@ class MaskedPoints {
   public:
     explicit MaskedPoints(Device& device) : device_(device.internals()) {}
 
-    /// Asks all masked casters of the frame. The frame's constants and the view must be bound; `tileBounds` says where
-    /// the receivers of small tiles are, `depth` how far they are.
-    void mark(const VolumeFrame& frame, CasterClusters& clusters, const LightPoints& points,
-              const gl::Buffer& tileBounds, const gl::Texture& depth);
+    /// Asks all masked casters of the frame.
+    void mark(const VolumeFrame& frame, const FrameBinding& binding, CasterClusters& clusters,
+              const LightPoints& points, const Receivers& receivers);
 
-    /// A bit a point, in layers of 32 (R32UI). Only where the frame has masked casters.
+    /// A bit a point, in layers of 32 (R32UI).
     const gl::Texture& hidden() const { return hidden_; }
 
   private:
+    void fitHidden(glm::ivec2 size_px, int words);
     void allocate(glm::ivec2 size_px, int samples);
 
     Device::Internals& device_;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The faces of a mesh in light space. Requires volumes_io.h.
 
-layout(std430, binding = 0) readonly buffer Positions { float positions[]; };
-layout(std430, binding = 1) readonly buffer Indices { uint indices[]; };
+layout(std430) readonly buffer Positions { float positions[]; };
+layout(std430) readonly buffer Indices { uint indices[]; };
 
-// In double precision: of a ground that is hundreds of times as large as what stands on it, single precision knows
+// Its matrix has double precision: of a ground that is hundreds of times as large as what stands on it, single precision knows
 // no better where it is than receivers are lifted above it.
-layout(location = 0) uniform dmat4 lightFromMesh;
+layout(std140) uniform Constants { MeshConstants mesh; };
 
 dvec3 exactPositionLight(uint vertex) {
     uint i = 3u * vertex;
-    precise dvec3 posLight = (lightFromMesh * dvec4(positions[i], positions[i + 1u], positions[i + 2u], 1.0lf)).xyz;
+    precise dvec3 posLight = (mesh.lightFromMesh * dvec4(positions[i], positions[i + 1u], positions[i + 2u], 1.0lf)).xyz;
     return posLight;
 }
 
@@ -35,7 +35,7 @@ vec4 facePlane(uint face) {
 bool mayReachIntoSphere(uint face) {
     uint first = 3u * (face >> 1);
     vec3 a = positionLight(indices[first]), b = positionLight(indices[first + 1u]), c = positionLight(indices[first + 2u]);
-    float radius = 1.001 * volume.lightSize.x;
+    float radius = 1.001 * volume.light.halfSize.x;
     bool isBeside = any(greaterThan(min(min(a, b), c), vec3(radius))) || any(lessThan(max(max(a, b), c), vec3(-radius)));
     vec4 plane = facePlane(face);
     precise float square = (plane.x * plane.x + plane.y * plane.y) + plane.z * plane.z;
@@ -47,9 +47,9 @@ bool isInLightPlane(uint face) {
     uint first = 3u * (face >> 1);
     float a = positionLight(indices[first]).z, b = positionLight(indices[first + 1u]).z,
           c = positionLight(indices[first + 2u]).z;
-    return max(abs(a), max(abs(b), abs(c))) <= inPlane * max(volume.lightSize.x, volume.lightSize.y);
+    return max(abs(a), max(abs(b), abs(c))) <= inPlane * max(volume.light.halfSize.x, volume.light.halfSize.y);
 }
 
 // Faces that reach into a sphere are looked at by themselves, and those in a flat light's plane not at all: to edges and
 // to the count at the light's centre they are missing. Only meshes whose box meets the light's have any.
-bool isMissing(uint face) { return volume.lightKind.x == shapeSphere ? mayReachIntoSphere(face) : isInLightPlane(face); }
+bool isMissing(uint face) { return volume.light.shape == shapeSphere ? mayReachIntoSphere(face) : isInLightPlane(face); }

@@ -20,7 +20,7 @@ void spreadPoints(LightFrame frame) {
     vec2 up = frame.horizon.xy, slope = abs(up);
     float reach = horizonReach(frame);
     // Of a textured light no more than must be: there points stand for what is around them.
-    isSliver = horizonSide(frame) == 0 && frame.horizon.z < (volume.lightKind.w == 1 ? -0.6 * reach : 0.0);
+    isSliver = horizonSide(frame) == 0 && frame.horizon.z < (volume.light.isTextured ? -0.6 * reach : 0.0);
     if (!isSliver) return;
     if (isSquareLight()) {
         // How far down from the highest corner each of its sides is above the horizon.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What of a textured light is beyond an edge. Requires light_area.glsl, seen_edges.glsl and light_table.glsl.
 
-layout(binding = 5) uniform sampler2D lightTable;
+uniform sampler2D lightTable;
 
 const float stepsAQuarter = 16.0;  // in which an edge is followed around the light's centre
 

@@ -7,7 +7,7 @@
 
 void main() {
     Receiver receiver;
-    bool isReceiver = loadReceiver(ivec2(gl_FragCoord.xy) * volume.buffer_px.z, receiver);
+    bool isReceiver = loadReceiver(ivec2(gl_FragCoord.xy) * volume.pixelsPerTexel, receiver);
     // Where nothing receives, nothing needs counting: no side lies before the nearest depth.
-    gl_FragDepth = isReceiver ? liftedDepth(receiver) : float(volume.buffer_px.w);
+    gl_FragDepth = isReceiver ? liftedDepth(receiver) : (volume.isReversed ? 1.0 : 0.0);
 }

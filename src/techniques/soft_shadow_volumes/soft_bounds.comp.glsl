@@ -9,7 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/soft_shadow_volumes/light_area.glsl"
 
 struct TileBounds { vec4 low, high; };
-layout(std430, binding = 0) writeonly buffer Bounds { TileBounds bounds[]; };
+layout(std430) writeonly buffer Bounds { TileBounds bounds[]; };
 
 shared vec3 places[64];
 shared bool isThere[64];
@@ -20,7 +20,7 @@ void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     Receiver receiver;
     LightFrame frame;
-    isThere[lane] = all(lessThan(texel, volume.buffer_px.xy)) && loadLiftedReceiver(texel, receiver) &&
+    isThere[lane] = all(lessThan(texel, volume.buffer_px)) && loadLiftedReceiver(texel, receiver) &&
                     makeLightFrame(receiver, frame) && horizonSide(frame) >= 0;
     places[lane] = receiver.posLight;
     barrier();
@@ -38,5 +38,5 @@ void main() {
     bool isEmpty = ranges[0].x > ranges[0].y;
     vec4 low = isEmpty ? vec4(1.0) : vec4(ranges[0].x, ranges[1].x, ranges[2].x, 0.0);
     vec4 high = isEmpty ? vec4(0.0) : vec4(ranges[0].y, ranges[1].y, ranges[2].y, 0.0);
-    bounds[gl_WorkGroupID.y * uint(volume.tiles.x) + gl_WorkGroupID.x] = TileBounds(low, high);
+    bounds[gl_WorkGroupID.y * volume.smallTilesAcross + gl_WorkGroupID.x] = TileBounds(low, high);
 }

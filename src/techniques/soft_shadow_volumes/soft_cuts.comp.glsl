@@ -13,8 +13,6 @@ layout(local_size_x = 256) in;
 #include "src/techniques/soft_shadow_volumes/mesh_faces.glsl"
 #include "src/techniques/soft_shadow_volumes/gathering.glsl"
 
-layout(location = 4) uniform uint triangleCount;
-
 // The part strictly on the side where z has this sign, walked as the face is, leaves through the plane at `from` and comes
 // back at `to`.
 void gatherCut(vec3 corners[3], vec4 plane, float side) {
@@ -30,20 +28,20 @@ void gatherCut(vec3 corners[3], vec4 plane, float side) {
     }
     if (crossings < 2) return;
     // Beside the light?
-    vec2 low = min(from.xy, to.xy), high = max(from.xy, to.xy), size = volume.lightSize.xy;
+    vec2 low = min(from.xy, to.xy), high = max(from.xy, to.xy), size = volume.light.halfSize;
     if (any(greaterThan(low, size)) || any(lessThan(high, -size))) return;
     gatherEdge(vec4(from, side), vec4(to, side), vec4[2](plane, vec4(0.0)));
 }
 
 void main() {
     uint triangle = gl_GlobalInvocationID.x;
-    if (triangle >= triangleCount) return;
+    if (triangle >= mesh.count) return;
     vec3 corners[3];
     for (uint i = 0u; i < 3u; ++i) corners[i] = positionLight(indices[3u * triangle + i]);
     // What collapses has no edges either.
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
     vec4 plane = facePlane(2u * triangle);
-    if (volume.lightKind.x == shapeSphere) {
+    if (volume.light.shape == shapeSphere) {
         if (mayReachIntoSphere(2u * triangle))
             gather(LightEdge(vec4(corners[0], wholeFace), vec4(corners[1], wholeFace),
                              vec4[2](vec4(corners[2], 0.0), plane)));
@@ -51,5 +49,5 @@ void main() {
     }
     if (isInLightPlane(2u * triangle)) return;
     gatherCut(corners, plane, -1.0);
-    if (volume.lightKind.y == 0) gatherCut(corners, plane, 1.0);
+    if (!volume.light.isOneSided) gatherCut(corners, plane, 1.0);
 }

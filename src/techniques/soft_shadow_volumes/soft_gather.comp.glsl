@@ -9,19 +9,16 @@ layout(local_size_x = 256) in;
 
 struct Edge { uint a, b, firstFace, faceCount; };
 
-layout(std430, binding = 3) readonly buffer Edges { Edge edges[]; };
-layout(std430, binding = 4) readonly buffer EdgeFaces { uint edgeFaces[]; };
-
-layout(location = 4) uniform uint edgeCount;
-layout(location = 5) uniform bool cutsLight;  // the mesh may cut through the light (see soft_cuts.comp.glsl)
+layout(std430) readonly buffer Edges { Edge edges[]; };
+layout(std430) readonly buffer EdgeFaces { uint edgeFaces[]; };
 
 // x: what the light's centre sees, y: how far the light's other points can be from that.
 vec2 seenByLight(vec4 plane) {
     vec3 size = abs(plane.xyz);
-    switch (volume.lightKind.x) {
-        case shapeDistant: return vec2(plane.z, volume.lightSize.z * length(plane.xy));
-        case shapeSphere: return vec2(plane.w, volume.lightSize.x * length(plane.xyz));
-        default: return vec2(plane.w, dot(size.xy, volume.lightSize.xy));
+    switch (volume.light.shape) {
+        case shapeDistant: return vec2(plane.z, volume.light.halfSize.x * length(plane.xy));
+        case shapeSphere: return vec2(plane.w, volume.light.halfSize.x * length(plane.xyz));
+        default: return vec2(plane.w, dot(size.xy, volume.light.halfSize));
     }
 }
 
@@ -34,10 +31,10 @@ void gatherSide(vec3 a, vec3 b, vec4 planes[2], float side) {
 }
 
 void main() {
-    if (gl_GlobalInvocationID.x >= edgeCount) return;
+    if (gl_GlobalInvocationID.x >= mesh.count) return;
     Edge edge = edges[gl_GlobalInvocationID.x];
     vec3 a = positionLight(edge.a), b = positionLight(edge.b);
-    bool isOneSided = volume.lightKind.y == 1;
+    bool isOneSided = volume.light.isOneSided;
     // Behind a light that shines to one side only.
     if (isOneSided && min(a.z, b.z) >= 0.0) return;
     for (uint i = 0u; i < edge.faceCount; i += 2u) {
@@ -47,14 +44,14 @@ void main() {
         for (uint side = 0u; side < 2u; ++side) {
             bool exists = i + side < edge.faceCount;
             uint face = exists ? edgeFaces[edge.firstFace + i + side] : 0u;
-            exists = exists && !(cutsLight && isMissing(face));
+            exists = exists && !(mesh.cutsLight && isMissing(face));
             planes[side] = exists ? facePlane(face) : vec4(0.0);
             vec2 seen = seenByLight(planes[side]);
             isSure = isSure && (abs(seen.x) > 1.001 * seen.y || !exists);
             weight += sign(seen.x);
         }
         if (isSure && weight == 0.0) continue;
-        if (cutsLight && volume.lightKind.x != shapeSphere) {
+        if (mesh.cutsLight && volume.light.shape != shapeSphere) {
             gatherSide(a, b, planes, -1.0);
             if (!isOneSided) gatherSide(a, b, planes, 1.0);
         } else {

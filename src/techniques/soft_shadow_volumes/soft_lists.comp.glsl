@@ -8,15 +8,15 @@ layout(local_size_x = 64) in;
 #include "src/techniques/soft_shadow_volumes/tile_shaft.glsl"
 #include "src/techniques/soft_shadow_volumes/large_tiles.glsl"
 
-layout(std430, binding = 1) readonly buffer LightEdges { LightEdge lightEdges[]; };
-layout(std430, binding = 2) readonly buffer Eye { EyeState eye; };
-layout(std430, binding = 3) writeonly buffer Lists { uint lists[]; };
+layout(std430) readonly buffer LightEdges { LightEdge lightEdges[]; };
+layout(std430) readonly buffer Eye { EyeState eye; };
+layout(std430) writeonly buffer Lists { uint lists[]; };
 
 void main() {
     TileBounds tile = largeTileBounds(ivec2(gl_WorkGroupID.xy));
     bool isEmpty = tile.low.x > tile.high.x;
     prepareShaft(tile, lightBounds(tile));
-    uint list = (gl_WorkGroupID.y * uint(volume.tiles.y) + gl_WorkGroupID.x) * uint(volume.tiles.w);
+    uint list = (gl_WorkGroupID.y * volume.largeTilesAcross + gl_WorkGroupID.x) * volume.listWords;
     // Each layer of groups takes a part of the list.
     uint part = gl_WorkGroupID.z * 512u;
     uint words = min(wordsOfEdges(eye.edgeCount), part + 512u);

@@ -3,17 +3,19 @@
 // What each sample of a textured light stands for: the mean radiance around it.
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 4) readonly buffer Samples { vec4 samples[]; };
-layout(std430, binding = 5) writeonly buffer Radiances { vec4 radiances[]; };
-layout(binding = 3) uniform sampler2D radiance;
-layout(location = 0) uniform int sampleCount;
+#include "src/techniques/soft_shadow_volumes/volumes_io.h"
+
+layout(std430) readonly buffer Samples { vec4 samples[]; };
+layout(std430) writeonly buffer Radiances { vec4 radiances[]; };
+uniform sampler2D radiance;
+layout(std140) uniform Constants { PointsConstants points; };
 
 const int taps = 8;
 
 void main() {
     int i = int(gl_GlobalInvocationID.x);
-    if (i >= sampleCount) return;
-    float cell = inversesqrt(float(sampleCount));
+    if (i >= points.count) return;
+    float cell = inversesqrt(float(points.count));
     vec2 middle = 0.5 + 0.5 * samples[i].xy;
     ivec2 size = textureSize(radiance, 0);
     vec3 sum = vec3(0.0);

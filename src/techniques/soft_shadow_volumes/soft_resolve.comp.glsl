@@ -22,24 +22,20 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/soft_shadow_volumes/layer_counts.glsl"
 #include "src/techniques/soft_shadow_volumes/layer_visibility.glsl"
 
-layout(std430, binding = 0) readonly buffer Bounds { TileBounds bounds[]; };
-layout(std430, binding = 1) readonly buffer LightEdges { LightEdge lightEdges[]; };
-layout(std430, binding = 2) readonly buffer Eye { EyeState eye; };
-layout(std430, binding = 3) readonly buffer Lists { uint lists[]; };
-layout(std430, binding = 6) buffer States { int states[]; };
+layout(std430) readonly buffer Bounds { TileBounds bounds[]; };
+layout(std430) readonly buffer LightEdges { LightEdge lightEdges[]; };
+layout(std430) readonly buffer Eye { EyeState eye; };
+layout(std430) readonly buffer Lists { uint lists[]; };
+layout(std430) buffer States { int states[]; };
 // The arguments of each round's indirect dispatch, then two lists of tiles: those of this round, and of the next.
-layout(std430, binding = 7) buffer Rounds { uint rounds[]; };
-layout(binding = 3) uniform isampler2D centerCounts;
-layout(binding = 6) uniform usampler2DArray hiddenPoints;  // by casters with holes: a bit a point, in layers of 32
-layout(binding = 0) uniform writeonly image2D visibility;
-layout(binding = 1, r32f) uniform writeonly image2D edgeCounts;
-layout(binding = 2, r32f) uniform writeonly image2D shownCounts;
+layout(std430) buffer Rounds { uint rounds[]; };
+uniform usampler2D centerCounts;
+uniform usampler2DArray hiddenPoints;  // by casters with holes: a bit a point, in layers of 32
+uniform writeonly image2D visibility;
+layout(r32f) uniform writeonly image2D edgeCounts;
+layout(r32f) uniform writeonly image2D shownCounts;
 
-layout(location = 0) uniform uint firstTile;  // of the band that is worked on
-layout(location = 1) uniform uint round_;
-layout(location = 2) uniform uint roundWork;  // loop iterations after which a tile pauses
-layout(location = 3) uniform uvec2 roundLists;  // where this round's list of tiles begins, and the next one's
-layout(location = 4) uniform bool hasMasks;
+layout(std140) uniform Constants { ResolveConstants how; };
 
 const uint stateWords = uint(SAMPLES) + 5u;
 const uint wordsAtOnce = 64u;
@@ -48,7 +44,7 @@ shared uint mattering[EDGES_AT_ONCE];
 shared uint matteringCount;
 shared uint mostPoints;  // that an edge made a receiver look at
 
-uint stateAt(uint tile, uint i) { return ((tile - firstTile) * (stateWords + 1u) + i) * 64u + gl_LocalInvocationIndex; }
+uint stateAt(uint tile, uint i) { return ((tile - how.firstTile) * (stateWords + 1u) + i) * 64u + gl_LocalInvocationIndex; }
 
 void saveCounts(uint tile) {
     for (int i = 0; i < SAMPLES; ++i) states[stateAt(tile, uint(i))] = changes[i];
@@ -70,8 +66,8 @@ void pause(uint tile, uint word) {
     saveCounts(tile);
     states[stateAt(tile, stateWords)] = int(word);
     if (gl_LocalInvocationIndex != 0u) return;
-    uint next = 3u * (round_ + 1u);
-    rounds[roundLists.y + atomicAdd(rounds[next], 1u)] = tile;
+    uint next = 3u * (how.round + 1u);
+    rounds[how.nextList + atomicAdd(rounds[next], 1u)] = tile;
     atomicMax(rounds[next + 1u], 1u);
     atomicMax(rounds[next + 2u], 1u);
 }
@@ -138,7 +134,7 @@ void addHidden(ivec2 texel) {
     for (int i = 0; i < SAMPLES; ++i) {
         if ((i & 31) == 0) word = texelFetch(hiddenPoints, ivec3(texel, i >> 5), 0).r;
         bool isHidden = (word & (1u << (i & 31))) != 0u;
-        vec3 radiance = volume.lightKind.w == 1 ? radiances[i].rgb : vec3(1.0);
+        vec3 radiance = volume.light.isTextured ? radiances[i].rgb : vec3(1.0);
         changes[i] += isHidden ? 1 : 0;
         hidden += isHidden ? radiance : vec3(0.0);
         all += radiance;
@@ -152,11 +148,11 @@ void addHidden(ivec2 texel) {
 
 void main() {
     uint lane = gl_LocalInvocationIndex;
-    uint tile = round_ == 0u ? firstTile + gl_WorkGroupID.y * uint(volume.tiles.x) + gl_WorkGroupID.x
-                             : rounds[roundLists.x + gl_WorkGroupID.x];
-    uvec2 place = uvec2(tile % uint(volume.tiles.x), tile / uint(volume.tiles.x));
+    uint tile = how.round == 0u ? how.firstTile + gl_WorkGroupID.y * volume.smallTilesAcross + gl_WorkGroupID.x
+                             : rounds[how.thisList + gl_WorkGroupID.x];
+    uvec2 place = uvec2(tile % volume.smallTilesAcross, tile / volume.smallTilesAcross);
     ivec2 texel = ivec2(8u * place + gl_LocalInvocationID.xy);
-    bool isInside = all(lessThan(texel, volume.buffer_px.xy));
+    bool isInside = all(lessThan(texel, volume.buffer_px));
 
     Receiver receiver;
     LightFrame frame;
@@ -165,19 +161,19 @@ void main() {
     if (seesLight) spreadPoints(frame);
     for (int i = 0; i < SAMPLES; ++i) changes[i] = 0;
     uint word = 0u;
-    if (round_ > 0u) {
+    if (how.round > 0u) {
         loadCounts(tile);
         word = uint(states[stateAt(tile, stateWords)]);
     }
 
     TileBounds tileBounds = bounds[tile];
     prepareShaft(tileBounds, lightBounds(tileBounds));
-    uvec2 largeTile = place / uint(volume.tiles.z);
-    uint list = (largeTile.y * uint(volume.tiles.y) + largeTile.x) * uint(volume.tiles.w);
+    uvec2 largeTile = place / volume.smallTilesALargeOne;
+    uint list = (largeTile.y * volume.largeTilesAcross + largeTile.x) * volume.listWords;
     bool isEmpty = tileBounds.low.x > tileBounds.high.x;
     uint words = isEmpty ? 0u : wordsOfEdges(eye.edgeCount);
     uint work = 0u;
-    while (word < words && work < roundWork) {
+    while (word < words && work < how.roundWork) {
         uint bits = matteringBits(list, word + lane, words);
         work += 32u;
         uint count = listMattering(word + lane, bits);
@@ -187,7 +183,7 @@ void main() {
         } else {
             // As many words at a time as there is room for.
             const uint fitting = uint(EDGES_AT_ONCE) / 32u;
-            for (uint first = 0u; first < wordsAtOnce && work < roundWork; first += fitting) {
+            for (uint first = 0u; first < wordsAtOnce && work < how.roundWork; first += fitting) {
                 uint part = listMattering(word - first + lane, lane / fitting == first / fitting ? bits : 0u);
                 work += addMattering(frame, receiver, seesLight, part);
                 word += fitting;
@@ -201,9 +197,9 @@ void main() {
 
     if (!isInside) return;
     vec3 seen = vec3(isReceiver ? 0.0 : 1.0);
-    int atCenter = texelFetch(centerCounts, texel, 0).r;
+    int atCenter = int(texelFetch(centerCounts, texel, 0).r);
     if (seesLight) {
-        if (hasMasks) addHidden(texel);
+        if (how.hasMasks) addHidden(texel);
         seen = visibilityOf(frame, atCenter);
     }
     imageStore(shownCounts, texel, vec4(float(atCenter)));

@@ -23,7 +23,6 @@ SoftVolumes::SoftVolumes(Device& device)
       upsampleEven_(device.internals().shaders,
                     {"src/techniques/soft_shadow_volumes/upsample_even.comp.glsl"}),
       upsample_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/upsample.comp.glsl"}),
-      constants_("soft-volumes/constants"),
       alphaMaskWarning_(device) {
     effort_.roundWork = isSoftware_ ? TileLayers::softwareRoundWork : TileLayers::hardwareRoundWork;
 }
@@ -69,11 +68,11 @@ void SoftVolumes::describe(ParameterVisitor& visitor) {
 
 void SoftVolumes::resolveHard(const VisibilityBuffer& out) {
     const auto pass = timers_.pass("soft-volumes/visibility");
-    hardResolve_.use();
-    counter_.bind(3, 2);
-    bindVisibility(out, 0);
-    gl::dispatchPixels(out.width_px(), out.height_px());
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    gl::Pass(hardResolve_)
+        .bind(binding_)
+        .bind(counter_)
+        .bind("visibility", imageOf(out))
+        .dispatchPixels(out.width_px(), out.height_px());
 }
 
 int SoftVolumes::chooseSize() {
@@ -93,72 +92,65 @@ int SoftVolumes::chooseSize() {
     return budgetedSize_;
 }
 
-void SoftVolumes::allocateVBuffer(glm::ivec2 size_px, gl::Format format) {
-    if (vBuffer_.name() != 0 && vBuffer_.width_px() == size_px.x && vBuffer_.height_px() == size_px.y &&
-        vBuffer_.format() == format)
-        return;
-    vBuffer_ = {};
-    vBuffer_ = gl::Texture(
-        {.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = "soft-volumes/V-buffer"});
-}
-
 void SoftVolumes::upsample(const VisibilityBuffer& out) {
     const auto pass = timers_.pass("soft-volumes/upsample");
     const std::size_t tiles = std::size_t((out.width_px() + 7) / 8) * std::size_t((out.height_px() + 7) / 8);
-    const std::size_t size_bytes = (3 + tiles) * sizeof(GLuint);
-    if (mixedTiles_.size_bytes() < size_bytes)
-        mixedTiles_ = gl::Buffer(size_bytes, "soft-volumes/mixed tiles");
+    mixedTiles_.reserve((3 + tiles) * sizeof(GLuint), "soft-volumes/mixed tiles");
     const std::array<GLuint, 3> none = {0, 1, 1};
     mixedTiles_.write(std::as_bytes(std::span(none)));
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, mixedTiles_.name());
-    vBuffer_.bind(3);
-    counter_.depth().bind(4);
-    bindVisibility(out, 0);
-    upsampleEven_.use();
-    gl::dispatchPixels(out.width_px(), out.height_px());
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
-                    GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    upsample_.use();
-    gl::dispatchIndirect(mixedTiles_);
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    gl::Pass(upsampleEven_)
+        .bind(binding_)
+        .bind("MixedTiles", mixedTiles_)
+        .bind("vBuffer", vBuffer_)
+        .bind("visibility", imageOf(out))
+        .dispatchPixels(out.width_px(), out.height_px());
+    gl::Pass(upsample_)
+        .bind(binding_)
+        .bind("MixedTiles", mixedTiles_)
+        .bind("vBuffer", vBuffer_)
+        .bind("liftedDepths", counter_.depth())
+        .bind("visibility", imageOf(out))
+        .dispatchIndirect(mixedTiles_);
 }
 
 void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     checkInputs(inputs, out);
-    const int size = hasNoSize(inputs.light) ? 0 : chooseSize();
+    const bool isSoft = hasSize(inputs.light);
+    const int size = isSoft ? chooseSize() : 0;
     const int pixelsPerTexel = 1 << size;
     const auto frameTime = sizeTimers_.pass(sizePasses[std::size_t(size)]);
-    const bool wedges = method_ == int(Method::wedges) && !hasNoSize(inputs.light);
-    const bool isDrawn = wedges || hasNoSize(inputs.light);
+    const bool wedges = method_ == int(Method::wedges) && isSoft;
+    const bool isDrawn = wedges || !isSoft;
     VolumeFrame frame(inputs, pixelsPerTexel, isDrawn ? VolumeFrame::Count::drawn : VolumeFrame::Count::asked);
     if (wedges) {
         WedgeRaster::countAsBlockers(frame);
     } else {
         layers_.prepare(frame, effort_);
     }
-    constants_.write(frame.constants);
-    view_.bind(inputs.view, frame.lightFromWorld);
-    constants_.bindUniform(1);
+    binding_.fill(inputs.view, frame);
     if (isDrawn) {
         alphaMaskWarning_.check(inputs.casters);
         const auto pass = timers_.pass("soft-volumes/drawn count");
-        counter_.render(frame, Counting(counting_));
+        counter_.render(frame, binding_, Counting(counting_));
     } else {
-        counter_.renderReceivers(frame);
+        counter_.renderReceivers(frame, binding_);
     }
-    if (hasNoSize(inputs.light)) {
+    if (!isSoft) {
         resolveHard(out);
         return;
     }
-    const gl::Format format = out.colored() ? gl::Format::rgba16f : gl::Format::r32f;
-    if (pixelsPerTexel > 1) allocateVBuffer(glm::ivec2(frame.constants.buffer_px), format);
-    const GLuint target = pixelsPerTexel > 1 ? vBuffer_.name() : out.texture();
+    if (pixelsPerTexel > 1) {
+        vBuffer_.fit({.width_px = frame.constants.buffer_px.x,
+                      .height_px = frame.constants.buffer_px.y,
+                      .format = out.colored() ? gl::Format::rgba16f : gl::Format::r32f,
+                      .label = "soft-volumes/V-buffer"});
+    }
+    const gl::TextureRef target = pixelsPerTexel > 1 ? vBuffer_.ref() : imageOf(out);
     if (wedges) {
-        wedges_.render(frame, inputs.light, counter_,
-                       {WedgeRaster::Marking(marking_), Counting(counting_), wireframe_}, target, format,
-                       timers_);
+        wedges_.render(frame, binding_, inputs.light, counter_,
+                       {WedgeRaster::Marking(marking_), Counting(counting_), wireframe_}, target, timers_);
     } else {
-        layers_.render(frame, inputs.light, counter_, target, format, timers_);
+        layers_.render(frame, binding_, inputs.light, counter_, target, timers_);
     }
     if (pixelsPerTexel > 1) upsample(out);
 }

@@ -25,7 +25,6 @@ class SoftVolumes final : public Technique {
   private:
     void resolveHard(const VisibilityBuffer& out);
     int chooseSize();
-    void allocateVBuffer(glm::ivec2 size_px, gl::Format format);
     void upsample(const VisibilityBuffer& out);
 
     enum class Method { layers, wedges };
@@ -44,8 +43,7 @@ class SoftVolumes final : public Technique {
     TileLayers layers_;
     WedgeRaster wedges_;
     gl::Program hardResolve_, upsampleEven_, upsample_;
-    ViewBinding view_;
-    gl::ConstantBuffer<VolumeConstants> constants_;
+    FrameBinding binding_;
     gl::Texture vBuffer_;
     gl::Buffer mixedTiles_;  // of the picture, that upsample_ has to look at
     AlphaMaskWarning alphaMaskWarning_;

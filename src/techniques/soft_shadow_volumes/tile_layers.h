@@ -33,10 +33,9 @@ class TileLayers {
     /// Makes room for the frame's edges and tiles, and tells its shaders where they are. Nothing that reads
     /// the frame's constants may have been drawn yet.
     void prepare(VolumeFrame& frame, Effort effort);
-    /// Writes visibility into `target`, a texture of the V-buffer's size. The frame's constants, the view and
-    /// the receivers of `counter` must be there.
-    void render(const VolumeFrame& frame, const AreaLight& light, const VolumeCounter& counter, GLuint target,
-                gl::Format format, gl::PassTimers& timers);
+    /// Writes visibility into `target`, a texture of the V-buffer's size. `counter` must have the receivers.
+    void render(const VolumeFrame& frame, const FrameBinding& binding, const AreaLight& light,
+                const VolumeCounter& counter, const gl::TextureRef& target, gl::PassTimers& timers);
 
     /// How many edges were looked at for each texel.
     const gl::Texture& edgeCounts() const { return edgeCounts_; }
@@ -46,11 +45,12 @@ class TileLayers {
     std::size_t edgesWithoutRoom(const VolumeCounter& counter) const;
 
   private:
-    void boundTiles(const VolumeFrame& frame, const VolumeCounter& counter);
-    void gatherEdges(const VolumeFrame& frame, const VolumeCounter& counter);
+    void boundTiles(const VolumeFrame& frame, const FrameBinding& binding, const VolumeCounter& counter);
+    void gatherEdges(const VolumeFrame& frame, const FrameBinding& binding, const VolumeCounter& counter);
     void makeResolve();
-    void listEdges(const VolumeFrame& frame, const VolumeCounter& counter);
-    void resolve(const VolumeFrame& frame, const VolumeCounter& counter);
+    void listEdges(const VolumeFrame& frame, const FrameBinding& binding, const VolumeCounter& counter);
+    void resolve(const VolumeFrame& frame, const FrameBinding& binding, const VolumeCounter& counter,
+                 const gl::TextureRef& target);
 
     Device::Internals& device_;
     gl::Program gather_, cuts_, bounds_, lists_, resolve_;
@@ -62,7 +62,7 @@ class TileLayers {
     gl::Texture edgeCounts_;
     Effort effort_;
     int resolveSamples_ = 0;  // that `resolve_` was made for
-    std::size_t largestBlock_bytes_ = 0;
+    std::size_t largestBlock_bytes_;
     std::size_t recordCount_ = 0;  // room for LightEdges
     bool isLimited_ = false;       // to less than there may be
 };

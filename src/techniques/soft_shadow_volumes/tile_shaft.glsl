@@ -11,17 +11,17 @@ const int shaftPlaneCount = 18;
 
 TileBounds lightBounds(TileBounds tile) {
     TileBounds bounds;
-    if (volume.lightKind.x == shapeDistant) {
+    if (volume.light.shape == shapeDistant) {
         // All light arrives from within a cone; beyond the highest caster it no longer matters.
-        float height = max(volume.lightSize.w - tile.low.z, 0.0);
-        vec3 spread = vec3(vec2(height * volume.lightSize.z), 0.0);
+        float height = max(volume.highest_m - tile.low.z, 0.0);
+        vec3 spread = vec3(vec2(height * volume.light.halfSize.x), 0.0);
         bounds.low = vec4(tile.low.xyz - spread, 0.0);
         bounds.high = vec4(tile.high.xyz + spread + vec3(0.0, 0.0, height), 0.0);
-    } else if (volume.lightKind.x == shapeSphere) {
-        bounds.low = vec4(vec3(-volume.lightSize.x), 0.0);
+    } else if (volume.light.shape == shapeSphere) {
+        bounds.low = vec4(vec3(-volume.light.halfSize.x), 0.0);
         bounds.high = -bounds.low;
     } else {
-        bounds.low = vec4(-volume.lightSize.xy, 0.0, 0.0);
+        bounds.low = vec4(-volume.light.halfSize, 0.0, 0.0);
         bounds.high = -bounds.low;
     }
     return bounds;
@@ -29,8 +29,8 @@ TileBounds lightBounds(TileBounds tile) {
 
 // The light's centre, as lightBounds has the light.
 TileBounds centerBounds(TileBounds tile) {
-    if (volume.lightKind.x != shapeDistant) return TileBounds(vec4(0.0), vec4(0.0));
-    vec3 height = vec3(0.0, 0.0, max(volume.lightSize.w - tile.low.z, 0.0));
+    if (volume.light.shape != shapeDistant) return TileBounds(vec4(0.0), vec4(0.0));
+    vec3 height = vec3(0.0, 0.0, max(volume.highest_m - tile.low.z, 0.0));
     return TileBounds(tile.low, vec4(tile.high.xyz + height, 0.0));
 }
 

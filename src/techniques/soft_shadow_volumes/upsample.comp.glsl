@@ -8,9 +8,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 #include "src/techniques/soft_shadow_volumes/lifted_receiver.glsl"
 
-layout(std430, binding = 0) readonly buffer MixedTiles { uint mixedTiles[]; };  // see upsample_even.comp.glsl
-layout(binding = 3) uniform sampler2D vBuffer;
-layout(binding = 0) uniform writeonly image2D visibility;
+layout(std430) readonly buffer MixedTiles { uint mixedTiles[]; };  // see upsample_even.comp.glsl
+uniform sampler2D vBuffer;
+uniform writeonly image2D visibility;
 
 // A texel belongs to the surface if it lies near the pixel's plane: within a sixth of its distance, which is what a
 // curved surface that turns by twenty degrees between them rises; and if its normal is within some forty degrees.
@@ -27,12 +27,12 @@ struct Texel {
 };
 shared Texel texels[64];
 
-int texelsAcross() { return 8 / volume.buffer_px.z + 3; }
+int texelsAcross() { return 8 / volume.pixelsPerTexel + 3; }
 
 void loadTexel(ivec2 firstTexel) {
     int lane = int(gl_LocalInvocationIndex), across = texelsAcross();
     ivec2 texel = firstTexel + ivec2(lane % across, lane / across);
-    ivec2 inside = clamp(texel, ivec2(0), volume.buffer_px.xy - 1);
+    ivec2 inside = clamp(texel, ivec2(0), volume.buffer_px - 1);
     Receiver receiver;
     bool isThere = texel == inside && loadLiftedReceiver(inside, receiver);
     texels[lane] = Texel(isThere ? receiver.posLight : vec3(0.0), isThere ? receiver.normalLight : vec3(0.0),
@@ -56,12 +56,12 @@ bool isKin(Receiver pixel, Texel texel, out float distance_m) {
 void main() {
     uint tilesAcross = uint(view.size_px.x + 7) / 8u, tile = mixedTiles[3u + gl_WorkGroupID.x];
     ivec2 firstPixel = ivec2(8u * uvec2(tile % tilesAcross, tile / tilesAcross));
-    int scale = volume.buffer_px.z;
+    int scale = volume.pixelsPerTexel;
     loadTexel(firstPixel / scale - 1);
     barrier();
     ivec2 pixel = firstPixel + ivec2(gl_LocalInvocationID.xy);
     Receiver receiver;
-    if (any(greaterThanEqual(pixel, view.size_px.xy)) || !loadReceiver(pixel, receiver)) return;
+    if (any(greaterThanEqual(pixel, view.size_px)) || !loadReceiver(pixel, receiver)) return;
 
     ivec2 before = pixel / scale - firstPixel / scale;  // among the tile's texels, where the first pixel's own is (1, 1)
     vec2 part = vec2(pixel % scale) / float(scale);

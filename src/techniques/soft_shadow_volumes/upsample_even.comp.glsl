@@ -8,20 +8,20 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 
 // DispatchIndirectCommand, then the tiles.
-layout(std430, binding = 0) buffer MixedTiles { uint mixedTiles[]; };
-layout(binding = 3) uniform sampler2D vBuffer;
-layout(binding = 0) uniform writeonly image2D visibility;
+layout(std430) buffer MixedTiles { uint mixedTiles[]; };
+uniform sampler2D vBuffer;
+uniform writeonly image2D visibility;
 
 shared vec3 around[64];
 shared uint differences;
 
 void main() {
-    int scale = volume.buffer_px.z;
+    int scale = volume.pixelsPerTexel;
     int lane = int(gl_LocalInvocationIndex);
     // A pixel takes from one texel before its own to two after.
     int width = 8 / scale + 3;
     ivec2 texel = ivec2(gl_WorkGroupID.xy) * 8 / scale - 1 + ivec2(lane % width, lane / width);
-    around[lane] = texelFetch(vBuffer, clamp(texel, ivec2(0), volume.buffer_px.xy - 1), 0).rgb;
+    around[lane] = texelFetch(vBuffer, clamp(texel, ivec2(0), volume.buffer_px - 1), 0).rgb;
     if (lane == 0) differences = 0u;
     barrier();
     if (lane < width * width && around[lane] != around[0]) differences = 1u;
@@ -30,6 +30,6 @@ void main() {
         mixedTiles[3u + atomicAdd(mixedTiles[0], 1u)] = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     }
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
+    if (any(greaterThanEqual(pixel, view.size_px))) return;
     imageStore(visibility, pixel, vec4(isReceiver(pixel) ? around[0] : vec3(1.0), 1.0));
 }

@@ -3,11 +3,9 @@
 // Every triangle closes its own shadow at the near end (instance 0) and at infinity (instance 1).
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 
-layout(std430, binding = 0) readonly buffer Positions { float positions[]; };
-layout(std430, binding = 1) readonly buffer Indices { uint indices[]; };
-layout(location = 0) uniform mat4 lightFromMesh;
-layout(location = 4) uniform int layersEach;
-layout(location = 5) uniform float sign;  // as for sides
+layout(std430) readonly buffer Positions { float positions[]; };
+layout(std430) readonly buffer Indices { uint indices[]; };
+layout(std140) uniform Constants { MeshConstants mesh; };
 layout(location = 0) flat out float change;
 
 // A near cap is moved away from the eye by this share of its distance: a receiver is the side of the surface that the
@@ -16,7 +14,7 @@ const float fromEye = 2e-5;
 
 vec3 cornerLight(uint index) {
     uint i = 3u * indices[index];
-    return (lightFromMesh * vec4(positions[i], positions[i + 1u], positions[i + 2u], 1.0)).xyz;
+    return (mat4(mesh.lightFromMesh) * vec4(positions[i], positions[i + 1u], positions[i + 2u], 1.0)).xyz;
 }
 
 void main() {
@@ -26,13 +24,13 @@ void main() {
     vec3 place = gl_VertexID % 3 == 0 ? a : gl_VertexID % 3 == 1 ? b : c;
     if (gl_InstanceID == 1) {
         gl_Position = volume.clipFromLight * vec4(shadowDirection(place), 0.0);
-        change = float(layersEach);
+        change = float(mesh.layersEach);
         return;
     }
     vec3 normal = cross(b - a, c - a);
     float ofEye = dot(normal, volume.eyeLight.xyz - volume.eyeLight.w * a);
-    float ofLight = volume.lightKind.x == shapeDistant ? normal.z : -dot(normal, a);
-    change = sign * float(ofEye * ofLight >= 0.0 ? layersEach : -layersEach);
+    float ofLight = volume.light.shape == shapeDistant ? normal.z : -dot(normal, a);
+    change = mesh.sign * float(ofEye * ofLight >= 0.0 ? mesh.layersEach : -mesh.layersEach);
     vec3 toEye = volume.eyeLight.w == 0.0 ? volume.eyeLight.xyz * length(place) : volume.eyeLight.xyz - place;
     gl_Position = volume.clipFromLight * vec4(place - fromEye * toEye, 1.0);
 }

@@ -2,10 +2,9 @@
 #include "src/techniques/soft_shadow_volumes/volume_counter.h"
 
 #include <cstddef>
-#include <glm/gtc/type_ptr.hpp>
 #include <string>
 
-#include "src/gl/raster_state.h"
+#include "src/gl/pass.h"
 
 namespace penumbra {
 namespace {
@@ -49,23 +48,17 @@ VolumeCounter::VolumeCounter(Device& device)
       depthCopy_(program(device, {"receiver_depth.vert.glsl", "receiver_depth.frag.glsl"})),
       sides_(program(device, {"volume_sides.vert.glsl", "volume.frag.glsl"})),
       caps_(program(device, {"volume_caps.vert.glsl", "volume.frag.glsl"})),
-      noVertices_(gl::makeFloatVertexArray()),
       layersEach_("soft-volumes/layers of casters"),
       eye_(sizeof(EyeState), "soft-volumes/eye") {}
 
-void VolumeCounter::allocate(int width_px, int height_px) {
-    if (counts_.name() != 0 && counts_.width_px() == width_px && counts_.height_px() == height_px) return;
-    counts_ = {};
-    depth_ = {};
-    counts_ = gl::Texture({.width_px = width_px,
-                           .height_px = height_px,
-                           .format = gl::Format::r32f,
-                           .label = "soft-volumes/counts"});
-    depth_ = gl::Texture({.width_px = width_px,
-                          .height_px = height_px,
-                          .format = gl::Format::depth32f,
-                          .label = "soft-volumes/receiver depth"});
-    framebuffer_ = gl::Framebuffer({&counts_}, &depth_, "soft-volumes/counts");
+void VolumeCounter::allocate(glm::ivec2 size_px) {
+    const auto fit = [&](gl::Texture& texture, gl::Format format, std::string_view label) {
+        return texture.fit(
+            {.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = label});
+    };
+    const bool isNew = fit(counts_, gl::Format::r32f, "soft-volumes/counts");
+    if (fit(depth_, gl::Format::depth32f, "soft-volumes/receiver depth") || isNew)
+        framebuffer_ = gl::Framebuffer({&counts_}, &depth_, "soft-volumes/counts");
 }
 
 void VolumeCounter::forgetEye() {
@@ -73,119 +66,110 @@ void VolumeCounter::forgetEye() {
     eye_.write(std::as_bytes(std::span(&start, 1)));
 }
 
-void VolumeCounter::examineEye(const VolumeFrame& frame, Counting counting) {
+void VolumeCounter::examineEye(const VolumeFrame& frame, const FrameBinding& binding, Counting counting) {
     forgetEye();
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, eye_.name());
-
-    blockers_.use();
-    for (std::size_t i = 0; i < frame.sources.size(); ++i) {
-        const SilhouetteSource& source = frame.sources[i];
-        const GLuint triangles = GLuint(source.mesh->indices().size() / 3);
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, source.mesh->positionBuffer());
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, source.mesh->indexBuffer());
-        glUniformMatrix4dv(0, 1, GL_FALSE, glm::value_ptr(source.lightFromMesh));
-        glUniform1ui(4, triangles);
-        glUniform1i(5, frame.layersEach[i]);
-        glDispatchCompute((triangles + 255) / 256, 1, 1);
+    {
+        gl::Pass pass(blockers_);
+        pass.bind(binding).bind("Eye", eye_);
+        for (std::size_t i = 0; i < frame.sources.size(); ++i) {
+            const Mesh& mesh = *frame.sources[i].mesh;
+            const std::size_t triangles = mesh.indices().size() / 3;
+            bindMesh(pass, mesh);
+            pass.constants(meshConstants(frame, i, triangles)).dispatch((triangles + 255) / 256);
+        }
     }
-
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, silhouettes_.commands().name());
     const bool hasEdges = silhouettes_.edgeCount() > 0;
     if (hasEdges) {
-        safety_.use();
-        silhouettes_.bindEdges(0);
-        gl::dispatchIndirect(silhouettes_.commands(), SilhouetteExtractor::dispatchOffset);
+        gl::Pass(safety_)
+            .bind(binding)
+            .bind("Silhouettes", silhouettes_.edges())
+            .bind("Commands", silhouettes_.commands())
+            .bind("Eye", eye_)
+            .dispatchIndirect(silhouettes_.commands(), SilhouetteExtractor::dispatchOffset);
     }
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 
     std::pmr::vector<CapCommand> commands{gl::LedgerScope::frameMemory()};
     for (const SilhouetteSource& source : frame.sources) {
         commands.insert(commands.end(), 2, {GLuint(source.mesh->indices().size()), 0, 0, 0, 0});
     }
-    const std::size_t size_bytes = commands.size() * sizeof(CapCommand);
-    if (capCommands_.name() == 0 || capCommands_.size_bytes() < size_bytes) {
-        capCommands_ = gl::Buffer(size_bytes, "soft-volumes/caps");
-    }
+    capCommands_.reserve(commands.size() * sizeof(CapCommand), "soft-volumes/caps");
     if (!commands.empty()) capCommands_.write(std::as_bytes(std::span(commands)));
-    choose_.use();
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, capCommands_.name());
-    glUniform1ui(0, GLuint(frame.sources.size()));
-    glUniform1i(1, int(counting));
-    glUniform1i(2, hasEdges);
-    glUniform1i(3, frame.mayHide);
-    glDispatchCompute(GLuint(commands.size() / 64 + 1), 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    gl::Pass(choose_)
+        .constants(CountingConstants{.casterCount = uint(frame.sources.size()),
+                                     .counting = int(counting),
+                                     .hasEdges = hasEdges,
+                                     .mayHide = frame.mayHide})
+        .bind(binding)
+        .bind("Commands", silhouettes_.commands())
+        .bind("Eye", eye_)
+        .bind("Caps", capCommands_)
+        .dispatch(commands.size() / 64 + 1);
 }
 
-void VolumeCounter::drawSides(std::size_t commandOffset, float sign) const {
-    sides_.use();
-    silhouettes_.bindEdges(0);
-    layersEach_.bind(1);
-    glUniform1f(0, sign);
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, eye_.name());
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): an offset, as OpenGL has it
-    glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(commandOffset));
+void VolumeCounter::drawSides(const FrameBinding& binding, const gl::RasterState& state,
+                              std::size_t commandOffset, float sign) const {
+    gl::Pass(sides_)
+        .constants(SidesConstants{.sign = sign})
+        .bind(binding)
+        .bind("Silhouettes", silhouettes_.edges())
+        .bind("Layers", layersEach_)
+        .into(framebuffer_, state)
+        .drawIndirect(gl::Primitive::triangles, eye_, commandOffset);
 }
 
-void VolumeCounter::drawCaps(const VolumeFrame& frame, std::size_t ofPair, float sign) const {
-    caps_.use();
-    glUniform1f(5, sign);
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, capCommands_.name());
+void VolumeCounter::drawCaps(const VolumeFrame& frame, const FrameBinding& binding, const gl::RasterState& state,
+                             std::size_t ofPair, float sign) const {
+    gl::Pass pass(caps_);
+    pass.bind(binding).into(framebuffer_, state);
     for (std::size_t i = 0; i < frame.sources.size(); ++i) {
-        const SilhouetteSource& source = frame.sources[i];
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, source.mesh->positionBuffer());
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, source.mesh->indexBuffer());
-        glUniformMatrix4fv(0, 1, GL_FALSE, glm::value_ptr(glm::mat4(source.lightFromMesh)));
-        glUniform1i(4, frame.layersEach[i]);
-        // NOLINTNEXTLINE(performance-no-int-to-ptr)
-        glDrawArraysIndirect(GL_TRIANGLES,
-                             reinterpret_cast<const void*>((2 * i + ofPair) * sizeof(CapCommand)));
+        MeshConstants constants = meshConstants(frame, i, 0);
+        constants.sign = sign;
+        bindMesh(pass, *frame.sources[i].mesh);
+        pass.constants(constants).drawIndirect(gl::Primitive::triangles, capCommands_,
+                                               (2 * i + ofPair) * sizeof(CapCommand));
     }
 }
 
-void VolumeCounter::drawReceiverDepth(GLuint framebuffer, glm::ivec2 size_px) const {
-    glBindVertexArray(noVertices_.name());
-    gl::beginPass(framebuffer, {.width_px = size_px.x,
-                                .height_px = size_px.y,
-                                .depthTest = gl::Compare::always,
-                                .depthWrite = true,
-                                .colorWrite = false});
-    depthCopy_.use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+void VolumeCounter::drawReceiverDepth(const gl::Framebuffer& framebuffer, const FrameBinding& binding,
+                                      glm::ivec2 size_px) const {
+    gl::Pass(depthCopy_)
+        .bind(binding)
+        .into(framebuffer, {.width_px = size_px.x,
+                            .height_px = size_px.y,
+                            .depthTest = gl::Compare::always,
+                            .depthWrite = true,
+                            .colorWrite = false})
+        .draw(gl::Primitive::triangles, 3);
 }
 
-void VolumeCounter::renderReceivers(const VolumeFrame& frame) {
-    const glm::ivec2 size_px(frame.constants.buffer_px);
-    allocate(size_px.x, size_px.y);
+void VolumeCounter::renderReceivers(const VolumeFrame& frame, const FrameBinding& binding) {
+    allocate(frame.constants.buffer_px);
     forgetEye();
-    drawReceiverDepth(framebuffer_.name(), size_px);
+    drawReceiverDepth(framebuffer_, binding, frame.constants.buffer_px);
 }
 
-void VolumeCounter::render(const VolumeFrame& frame, Counting counting) {
+void VolumeCounter::render(const VolumeFrame& frame, const FrameBinding& binding, Counting counting) {
     const VolumeConstants& constants = frame.constants;
-    allocate(constants.buffer_px.x, constants.buffer_px.y);
+    allocate(constants.buffer_px);
     silhouettes_.extract(frame.sources, frame.center(), {.verticesPerEdge = 6, .instances = 1});
     layersEach_.write(frame.layersEach);
-    examineEye(frame, counting);
+    examineEye(frame, binding, counting);
+    drawReceiverDepth(framebuffer_, binding, constants.buffer_px);
 
-    drawReceiverDepth(framebuffer_.name(), glm::ivec2(constants.buffer_px));
-
-    const bool reversed = constants.buffer_px.w == 1;
-    const float zero = 0;
-    gl::beginPass(framebuffer_.name(),
-                  countingState(constants, reversed ? gl::Compare::greater : gl::Compare::less));
-    glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, &zero);
-    drawSides(offsetof(EyeState, passSides), 1);
-    if (frame.mayHide) drawCaps(frame, 0, 1);
-    gl::beginPass(framebuffer_.name(),
-                  countingState(constants, reversed ? gl::Compare::lessEqual : gl::Compare::greaterEqual));
-    drawSides(offsetof(EyeState, failSides), -1);
-    drawCaps(frame, 1, -1);
+    const bool isReversed = constants.isReversed != 0;
+    const gl::RasterState before =
+        countingState(constants, isReversed ? gl::Compare::greater : gl::Compare::less);
+    const gl::RasterState behind =
+        countingState(constants, isReversed ? gl::Compare::lessEqual : gl::Compare::greaterEqual);
+    counts_.clear();
+    drawSides(binding, before, offsetof(EyeState, passSides), 1);
+    if (frame.mayHide) drawCaps(frame, binding, before, 0, 1);
+    drawSides(binding, behind, offsetof(EyeState, failSides), -1);
+    drawCaps(frame, binding, behind, 1, -1);
 }
 
-void VolumeCounter::bind(unsigned unit, unsigned block) const {
-    counts_.bind(unit);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block, eye_.name());
+void VolumeCounter::bindTo(gl::Pass& pass) const {
+    pass.bind("volumeCounts", counts_).bind("Eye", eye_);
 }
 
 }  // namespace penumbra

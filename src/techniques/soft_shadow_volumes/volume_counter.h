@@ -7,7 +7,6 @@
 #include "src/gl/framebuffer.h"
 #include "src/gl/pass_timers.h"
 #include "src/gl/texture.h"
-#include "src/gl/vertex_array.h"
 #include "src/techniques/soft_shadow_volumes/volume_frame.h"
 
 namespace penumbra {
@@ -26,18 +25,19 @@ class VolumeCounter {
   public:
     explicit VolumeCounter(Device& device);
 
-    /// Only finds where receivers are, and forgets what is known about the eye. `constants` and the view must be bound
-    /// to uniform blocks 1 and 0.
-    void renderReceivers(const VolumeFrame& frame);
-    /// Finds the silhouettes and counts. `constants` and the view must be bound to uniform blocks 1 and 0.
-    void render(const VolumeFrame& frame, Counting counting);
+    /// Only finds where receivers are, and forgets what is known about the eye.
+    void renderReceivers(const VolumeFrame& frame, const FrameBinding& binding);
+    /// Finds the silhouettes and counts.
+    void render(const VolumeFrame& frame, const FrameBinding& binding, Counting counting);
 
-    /// The counts (R32F) and the state of the eye (EyeState), whose `blockers` are to be added to them.
-    void bind(unsigned unit, unsigned block) const;
-    void bindLayersEach(unsigned block) const { layersEach_.bind(block); }
+    /// `volumeCounts` (R32F), and `Eye` (EyeState), whose `blockers` are to be added to them.
+    void bindTo(gl::Pass& pass) const;
+    /// How many layers a triangle of each caster counts for.
+    const gl::StorageArray<int>& layersEach() const { return layersEach_; }
 
     /// Draws the receivers' depths into a framebuffer of the V-buffer's size.
-    void drawReceiverDepth(GLuint framebuffer, glm::ivec2 size_px) const;
+    void drawReceiverDepth(const gl::Framebuffer& framebuffer, const FrameBinding& binding,
+                           glm::ivec2 size_px) const;
 
     const gl::Texture& counts() const { return counts_; }
     const gl::Texture& depth() const { return depth_; }
@@ -45,15 +45,16 @@ class VolumeCounter {
     const gl::Buffer& eye() const { return eye_; }
 
   private:
-    void allocate(int width_px, int height_px);
+    void allocate(glm::ivec2 size_px);
     void forgetEye();
-    void examineEye(const VolumeFrame& frame, Counting counting);
-    void drawSides(std::size_t commandOffset, float sign) const;
-    void drawCaps(const VolumeFrame& frame, std::size_t ofPair, float sign) const;
+    void examineEye(const VolumeFrame& frame, const FrameBinding& binding, Counting counting);
+    void drawSides(const FrameBinding& binding, const gl::RasterState& state, std::size_t commandOffset,
+                   float sign) const;
+    void drawCaps(const VolumeFrame& frame, const FrameBinding& binding, const gl::RasterState& state,
+                  std::size_t ofPair, float sign) const;
 
     SilhouetteExtractor silhouettes_;
     gl::Program blockers_, safety_, choose_, depthCopy_, sides_, caps_;
-    gl::VertexArrayHandle noVertices_;
     gl::StorageArray<int> layersEach_;
     gl::Buffer eye_;
     gl::Buffer capCommands_;

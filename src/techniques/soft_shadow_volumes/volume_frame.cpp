@@ -75,19 +75,6 @@ LightBox boxOf(const Mesh& mesh, const glm::dmat4& lightFromMesh) {
 
 }  // namespace
 
-bool hasNoSize(const AreaLight& light) {
-    switch (light.shape) {
-        case LightShape::rect:
-            return light.width_m <= 0 && light.height_m <= 0;
-        case LightShape::disk:
-        case LightShape::sphere:
-            return light.radius_m <= 0;
-        case LightShape::distant:
-            return light.angle_rad <= 0;
-    }
-    return true;
-}
-
 void AlphaMaskWarning::check(std::span<const Caster> casters) {
     if (said_) return;
     said_ = std::ranges::any_of(
@@ -135,8 +122,7 @@ VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel, Count c
     }
 
     const glm::dmat4 lightFromView = lightFromWorld * glm::inverse(toGlm(view.viewFromWorld));
-    constants.eyeLight = lightFromView * eyeView(view);
-    const glm::dvec3 eyeLight(constants.eyeLight);
+    const glm::dvec4 eyeLight = lightFromView * eyeView(view);
     const double reach_m = nearReach_m(view);
     double highest_m = -std::numeric_limits<double>::max();
     for (const Caster& caster : inputs.casters) {
@@ -151,18 +137,19 @@ VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel, Count c
         sources.push_back(source);
         layersEach.push_back(1);
         cutsLight.push_back(isCut(box));
-        mayHide = mayHide || !(glm::distance(glm::clamp(eyeLight, box.low, box.high), eyeLight) > reach_m);
+        mayHide = mayHide || !(glm::distance(glm::clamp(glm::dvec3(eyeLight), box.low, box.high), glm::dvec3(eyeLight)) > reach_m);
     }
-
-    // A tangent ends at 90 degrees; nothing is lost by stopping a quarter of a degree before.
-    const double tangent = std::tan(std::min(0.5 * double(light.angle_rad), 1.5665));
 
     constants.clipFromLight = bufferFromClip(view, size_px, pixelsPerTexel) * toGlm(view.clipFromView) *
                               glm::inverse(lightFromView);
-    const bool isDistant = light.shape == LightShape::distant;
-    constants.lightSize = glm::dvec4(half, isDistant ? tangent : planeAt_m, highest_m);
-    constants.lightKind = {int(light.shape), isOneSided(light), hasNoSize(light), light.radianceTexture != 0};
-    constants.buffer_px = {size_px, pixelsPerTexel, view.depth.reversed};
+    constants.eyeLight = eyeLight;
+    constants.light = lightConstants(light);
+    constants.buffer_px = size_px;
+    constants.pixelsPerTexel = pixelsPerTexel;
+    constants.isReversed = view.depth.reversed;
+    constants.highest_m = float(highest_m);
+    constants.plane_m = float(planeAt_m);
+    if (light.shape != LightShape::distant) constants.light.halfSize = half;
 }
 
 void VolumeFrame::capHoles(Device& device) {
@@ -174,8 +161,32 @@ void VolumeFrame::capHoles(Device& device) {
 }
 
 LightPoint VolumeFrame::center() const {
-    return constants.lightKind.x == int(LightShape::distant) ? LightPoint(0, 0, 1, 0)
+    return constants.light.shape == int(LightShape::distant) ? LightPoint(0, 0, 1, 0)
                                                              : LightPoint(0, 0, 0, 1);
+}
+
+void FrameBinding::fill(const View& view, const VolumeFrame& frame) {
+    view_.fill(view, frame.lightFromWorld);
+    constants_.write(frame.constants);
+}
+
+void FrameBinding::bindTo(gl::Pass& pass) const {
+    pass.bind("VolumeBlock", constants_);
+    if (pass.has("ViewBlock")) pass.bind(view_);
+}
+
+MeshConstants meshConstants(const VolumeFrame& frame, std::size_t index, std::size_t count) {
+    MeshConstants constants{};
+    constants.lightFromMesh = frame.sources[index].lightFromMesh;
+    constants.count = uint(count);
+    constants.cutsLight = frame.cutsLight[index];
+    constants.layersEach = frame.layersEach[index];
+    return constants;
+}
+
+void bindMesh(gl::Pass& pass, const Mesh& mesh) {
+    pass.bind("Positions", gl::HostBuffer{mesh.positionBuffer()});
+    pass.bind("Indices", gl::HostBuffer{mesh.indexBuffer()});
 }
 
 }  // namespace penumbra

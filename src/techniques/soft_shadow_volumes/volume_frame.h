@@ -8,6 +8,8 @@
 #include "src/device_internals.h"
 #include "src/geometry/silhouette_extractor.h"
 #include "src/gl/buffer.h"
+#include "src/gl/pass.h"
+#include "src/techniques/common/view_constants.h"
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 
 namespace penumbra {
@@ -63,7 +65,20 @@ class AlphaMaskWarning {
     bool said_ = false;
 };
 
-/// Whether the light is a point, so that its shadow is hard.
-bool hasNoSize(const AreaLight& light);
+/// What the passes of a frame get alike: its constants, and the receivers.
+class FrameBinding {
+  public:
+    void fill(const View& view, const VolumeFrame& frame);
+    void bindTo(gl::Pass& pass) const;
+
+  private:
+    ViewBinding view_;
+    gl::ConstantBuffer<VolumeConstants> constants_{"soft-volumes/constants"};
+};
+
+/// Of caster `index`, for passes that look at `count` of its edges or triangles.
+MeshConstants meshConstants(const VolumeFrame& frame, std::size_t index, std::size_t count);
+/// Of a caster's mesh, what of it the pass's shaders declare: `Positions` and `Indices`.
+void bindMesh(gl::Pass& pass, const Mesh& mesh);
 
 }  // namespace penumbra

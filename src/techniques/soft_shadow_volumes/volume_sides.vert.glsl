@@ -4,9 +4,9 @@
 #include "src/geometry/silhouettes_io.h"
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 
-layout(std430, binding = 0) readonly buffer Silhouettes { SilhouetteEdge silhouettes[]; };
-layout(std430, binding = 1) readonly buffer Layers { int layersEach[]; };  // a triangle of each caster counts for
-layout(location = 0) uniform float sign;  // 1: what is before the receiver counts; -1: what is behind
+layout(std430) readonly buffer Silhouettes { SilhouetteEdge silhouettes[]; };
+layout(std430) readonly buffer Layers { int layersEach[]; };  // a triangle of each caster counts for
+layout(std140) uniform Constants { SidesConstants sides; };
 layout(location = 0) flat out float change;
 
 const float edgeOn = 1e-6;  // some ten roundings
@@ -22,7 +22,7 @@ void main() {
     vec3 normal = cross(shadowDirection(edge.aLight), edge.bLight - edge.aLight);
     vec3 toEye = volume.eyeLight.xyz - volume.eyeLight.w * edge.aLight;
     float ofEye = dot(normal, toEye);
-    change = sign * float(edge.weight * layersEach[edge.caster]) * (ofEye < 0.0 ? -1.0 : 1.0);
+    change = sides.sign * float(edge.weight * layersEach[edge.caster]) * (ofEye < 0.0 ? -1.0 : 1.0);
     // Seen edge-on a side covers nothing, but its rounded corners at infinity may lie anywhere.
     if (abs(ofEye) <= edgeOn * length(normal) * length(toEye)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }

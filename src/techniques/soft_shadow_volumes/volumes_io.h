@@ -3,35 +3,86 @@
 #ifndef PENUMBRA_VOLUMES_IO_H
 #define PENUMBRA_VOLUMES_IO_H
 
+#include "src/techniques/common/light_io.h"
+
 #ifdef __cplusplus
-#include <cstdint>
-#include <glm/glm.hpp>
 namespace penumbra {
-using glm::ivec4;
-using glm::mat4;
-using glm::uvec4;
-using glm::vec4;
-using uint = std::uint32_t;
+using glm::dmat4;
 #endif
 
 // Of a flat light's larger half side: what is nearer to its plane is taken to lie in it.
 const float inPlane = 1e-4f;
 
 // The light, the eye and the V-buffer as all passes see them, in light space.
-struct VolumeConstants {
-    // The view's, shifted so that texels of the V-buffer lie on the pixels they stand for.
-    mat4 clipFromLight;
-    // Homogeneous: w = 1 a place, w = 0 the direction towards an orthographic viewer.
-    vec4 eyeLight;
-    // xy: half width and height, or radius; z: tangent of half a distant light's angle, or z of the plane
-    // where a flat light is, if it has been moved; w: the highest caster's z.
-    vec4 lightSize;
-    // x: LightShape; y: 1 if one-sided; z: 1 if it has no size; w: 1 if it has a radiance texture.
-    ivec4 lightKind;
-    // xy: the V-buffer's size; z: pixels a texel, along each axis; w: 1 if depth is reversed.
-    ivec4 buffer_px;
-    // x: small tiles a row; y: large tiles a row; z: small tiles along a large one; w: words a list.
-    ivec4 tiles;
+SHARED_STRUCT VolumeConstants {
+    mat4 clipFromLight;  // the view's, shifted so that texels of the V-buffer lie on the pixels they stand for
+    vec4 eyeLight;       // homogeneous: w = 1 a place, w = 0 the direction towards an orthographic viewer
+    LightConstants light;
+    ivec2 buffer_px;     // the V-buffer's size
+    int pixelsPerTexel;  // along each axis
+    bool32 isReversed;   // depth is: nearer is more
+    uint smallTilesAcross;     // a row of them
+    uint largeTilesAcross;
+    uint smallTilesALargeOne;  // along each of its sides
+    uint listWords;            // of a large tile's list of edges
+    float highest_m;           // the highest caster's z
+    float plane_m;             // z of the plane where a flat light is, if it has been moved
+};
+
+// A mesh, and what a pass does with it.
+#ifdef __cplusplus
+struct alignas(32)
+#else
+struct
+#endif
+    MeshConstants {
+    dmat4 lightFromMesh;
+    uint count;           // of the edges or triangles that are looked at
+    bool32 cutsLight;     // it may cut through the light
+    uint firstTriangle;   // that is looked at
+    uint firstCluster;    // where its clusters go in the list
+    int layersEach;       // a triangle counts for
+    float sign;           // 1: what is before the receiver counts; -1: what is behind
+    uint unused0;
+    uint unused1;
+};
+
+// The clusters that have been listed, and the mask of the caster to which they belong.
+SHARED_STRUCT ClusterConstants {
+    uint count;
+    bool32 toCenter;     // listed are those on the way to the light's centre, not to all of it
+    uint firstTriangle;  // of the mesh, that the list begins with
+    float alphaFactor;
+    float alphaCutoff;
+};
+
+SHARED_STRUCT ResolveConstants {
+    uint firstTile;  // of the band that is worked on
+    uint round;
+    uint roundWork;  // loop iterations after which a tile pauses
+    uint thisList;   // where this round's list of tiles begins
+    uint nextList;   // and the next one's
+    bool32 hasMasks;
+};
+
+SHARED_STRUCT CountingConstants {
+    uint casterCount;
+    int counting;     // 0: Z-pass where it is safe; 1: Z-pass; 2: Z-fail
+    bool32 hasEdges;
+    bool32 mayHide;   // there may be triangles before the receivers that the picture does not show
+};
+
+SHARED_STRUCT SidesConstants {
+    float sign;  // as of MeshConstants
+};
+
+SHARED_STRUCT PointsConstants {
+    int count;
+};
+
+SHARED_STRUCT WedgeConstants {
+    int half_;  // 0: the whole; 1, -1: the half on one or the other side of the middle plane
+    int eye;    // 0: all; 1, -1: only if the eye may be in the (half) wedge, or cannot be
 };
 
 // An edge with one or two of its faces, in light space; an edge of more faces is several of these, whose
@@ -79,13 +130,13 @@ struct EyeState {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(VolumeConstants) == 144 && sizeof(LightEdge) == 64 && sizeof(EyeState) == 64);
+static_assert(sizeof(VolumeConstants) == 160 && sizeof(MeshConstants) == 160 && sizeof(LightEdge) == 64 &&
+              sizeof(EyeState) == 64);
 static_assert(sizeof(LightTriangle) == 64 && sizeof(TriangleCluster) == 32);
 }  // namespace penumbra
 #else
 const float wholeFace = 2.0;
-const int shapeRect = 0, shapeDisk = 1, shapeSphere = 2, shapeDistant = 3;
-layout(std140, binding = 1) uniform VolumeBlock {
+layout(std140) uniform VolumeBlock {
     VolumeConstants volume;
 };
 
@@ -93,7 +144,7 @@ layout(std140, binding = 1) uniform VolumeBlock {
 // worse than the shadow of the light's centre.
 uint wordsOfEdges(uint edgeCount) {
     uint words = (edgeCount + 31u) / 32u;
-    return words <= uint(volume.tiles.w) ? words : 0u;
+    return words <= volume.listWords ? words : 0u;
 }
 
 // An order of places that all who ask about an edge agree on.
@@ -101,7 +152,7 @@ bool isBefore(vec3 a, vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y
 
 // From the light's centre through a point: the direction in which the point's shadow falls.
 vec3 shadowDirection(vec3 posLight) {
-    return volume.lightKind.x == shapeDistant ? vec3(0.0, 0.0, -1.0) : posLight;
+    return volume.light.shape == shapeDistant ? vec3(0.0, 0.0, -1.0) : posLight;
 }
 
 // On which side of the plane through the light's centre and the edge a homogeneous point lies.

@@ -30,7 +30,7 @@ void main() {
     if (!partBeforeLight(frame, edge, from, to)) return;
     // A face that shows the light its front shows the receiver, on the other side of the edge, its back.
     float blockers = (edge.hasLeft ? weight : -weight) * frame.handedness * 0.5;
-    vec3 share = volume.lightKind.w == 1 ? radianceBeyond(edge, from, to) : vec3(shareBeyond(from, to));
+    vec3 share = volume.light.isTextured ? radianceBeyond(edge, from, to) : vec3(shareBeyond(from, to));
     colored = vec4(blockers * share, 0.0);
     float change = blockers * dot(share, vec3(1.0 / 3.0));
     layers = vec2(max(change, 0.0), max(-change, 0.0));

@@ -6,12 +6,11 @@
 #include "src/geometry/silhouettes_io.h"
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 
-layout(std430, binding = 0) readonly buffer Silhouettes { SilhouetteEdge silhouettes[]; };
-layout(std430, binding = 1) readonly buffer Layers { int layersEach[]; };
+layout(std430) readonly buffer Silhouettes { SilhouetteEdge silhouettes[]; };
+layout(std430) readonly buffer Layers { int layersEach[]; };
 
-layout(std430, binding = 2) readonly buffer Commands { SilhouetteCommands commands; };
-layout(location = 0) uniform int wedgeHalf;  // 0: the whole; 1, -1: the half on one or the other side of the middle plane
-layout(location = 1) uniform int wedgeEye;   // 0: all; 1, -1: only if the eye may be in the (half) wedge, or cannot be
+layout(std430) readonly buffer Commands { SilhouetteCommands commands; };
+layout(std140) uniform Constants { WedgeConstants wedge; };
 
 layout(location = 0) flat out vec3 aLight;
 layout(location = 1) flat out vec3 bLight;
@@ -27,8 +26,8 @@ const int corners[24] = int[](0, 2, 3, 0, 3, 1,   // front
 
 // From a place to the light's point with these signs, in the axes of the wedge.
 vec3 towardsLight(vec3 from, vec3 signs, mat3 axes) {
-    if (volume.lightKind.x == shapeDistant) return vec3(signs.xy * volume.lightSize.z, 1.0) * axes;
-    vec3 reach = vec3(volume.lightSize.xy, volume.lightKind.x == shapeSphere ? volume.lightSize.x : 0.0);
+    if (volume.light.shape == shapeDistant) return vec3(signs.xy * volume.light.halfSize.x, 1.0) * axes;
+    vec3 reach = vec3(volume.light.halfSize, volume.light.shape == shapeSphere ? volume.light.halfSize.x : 0.0);
     return (signs * reach - from) * axes;
 }
 
@@ -57,7 +56,7 @@ void main() {
 
     // The end that is farther from the light is drawn towards it.
     vec3 a = aLight, b = bLight;
-    if (volume.lightKind.x == shapeDistant) {
+    if (volume.light.shape == shapeDistant) {
         float top = max(a.z, b.z);
         a.z = b.z = top;
     } else {
@@ -67,7 +66,7 @@ void main() {
     }
 
     // Axes: x along the edge, z towards the light's centre.
-    vec3 z = volume.lightKind.x == shapeDistant ? vec3(0.0, 0.0, 1.0) : -normalize(a + b);
+    vec3 z = volume.light.shape == shapeDistant ? vec3(0.0, 0.0, 1.0) : -normalize(a + b);
     vec3 x = (b - a) - dot(b - a, z) * z;
     // An edge that points at the light has lost its length.
     if (dot(x, x) <= 1e-12 * dot(bLight - aLight, bLight - aLight))
@@ -90,10 +89,10 @@ void main() {
     high += 1e-4 * (high - low) + 1e-6;
 
     // The middle plane holds the edge and the light's centre: y = 0.
-    if (wedgeHalf > 0) low.y = 0.0;
-    if (wedgeHalf < 0) high.y = 0.0;
+    if (wedge.half_ > 0) low.y = 0.0;
+    if (wedge.half_ < 0) high.y = 0.0;
 
-    if (wedgeEye != 0 && mayHoldEye(a, b, axes, low, high) != (wedgeEye > 0)) {
+    if (wedge.eye != 0 && mayHoldEye(a, b, axes, low, high) != (wedge.eye > 0)) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
         return;
     }

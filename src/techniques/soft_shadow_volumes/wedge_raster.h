@@ -30,10 +30,10 @@ class WedgeRaster {
     /// each. To be called before the frame is counted.
     static void countAsBlockers(VolumeFrame& frame);
 
-    /// Writes visibility into `target`, a texture of the V-buffer's size. The frame's constants, the view and
-    /// what `counter` counted must be there.
-    void render(const VolumeFrame& frame, const AreaLight& light, const VolumeCounter& counter,
-                Options options, GLuint target, gl::Format format, gl::PassTimers& timers);
+    /// Writes visibility into `target`, a texture of the V-buffer's size, from what `counter` has counted.
+    void render(const VolumeFrame& frame, const FrameBinding& binding, const AreaLight& light,
+                const VolumeCounter& counter, Options options, const gl::TextureRef& target,
+                gl::PassTimers& timers);
 
     /// The V-buffer's additive and subtractive layer; how many (half) wedges each texel was evaluated for;
     /// and the last outlines, where they were asked for.
@@ -41,14 +41,15 @@ class WedgeRaster {
 
   private:
     void allocate(glm::ivec2 size_px, bool isTextured, Options options);
-    void drawAll(const VolumeCounter& counter) const;
-    void drawMarked(const VolumeFrame& frame, const VolumeCounter& counter, Counting counting) const;
-    void markHalf(int wedge, int half, Counting counting) const;
-    void addHalf(int wedge, int half) const;
-    void drawWireframe(const VolumeCounter& counter, glm::ivec2 size_px) const;
+    /// What wedges are made of.
+    static void bindEdges(gl::Pass& pass, const FrameBinding& binding, const VolumeCounter& counter);
+    void bindEvaluation(gl::Pass& pass, const FrameBinding& binding, const VolumeCounter& counter) const;
+    void drawAll(const FrameBinding& binding, const VolumeCounter& counter) const;
+    void drawMarked(const VolumeFrame& frame, const FrameBinding& binding, const VolumeCounter& counter,
+                    Counting counting);
+    void drawWireframe(const FrameBinding& binding, const VolumeCounter& counter, glm::ivec2 size_px) const;
 
     gl::Program wedges_, marks_, resolve_;
-    gl::VertexArrayHandle noVertices_;
     LightPoints points_;
     gl::Texture layers_, evaluations_, colors_, depthAndMarks_, wireframe_;
     gl::Framebuffer framebuffer_, wireframeFramebuffer_;

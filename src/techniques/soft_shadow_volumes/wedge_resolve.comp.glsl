@@ -8,15 +8,15 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/soft_shadow_volumes/lifted_receiver.glsl"
 #include "src/techniques/soft_shadow_volumes/light_area.glsl"
 
-layout(binding = 3) uniform sampler2D volumeCounts;
-layout(binding = 5) uniform sampler2D wedgeLayers;
-layout(binding = 6) uniform sampler2D wedgeColors;  // of a textured light
-layout(std430, binding = 2) readonly buffer Eye { EyeState eye; };
-layout(binding = 0) uniform writeonly image2D visibility;
+uniform sampler2D volumeCounts;
+uniform sampler2D wedgeLayers;
+uniform sampler2D wedgeColors;  // of a textured light
+layout(std430) readonly buffer Eye { EyeState eye; };
+uniform writeonly image2D visibility;
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(texel, volume.buffer_px.xy))) return;
+    if (any(greaterThanEqual(texel, volume.buffer_px))) return;
     Receiver receiver;
     LightFrame frame;
     vec3 seen = vec3(1.0);
@@ -25,7 +25,7 @@ void main() {
         if (makeLightFrame(receiver, frame) && horizonSide(frame) >= 0) {
             float hard = 0.5 * (texelFetch(volumeCounts, texel, 0).r + float(eye.blockers));
             vec2 layers = texelFetch(wedgeLayers, texel, 0).rg;
-            vec3 soft = volume.lightKind.w == 1 ? texelFetch(wedgeColors, texel, 0).rgb : vec3(layers.x - layers.y);
+            vec3 soft = volume.light.isTextured ? texelFetch(wedgeColors, texel, 0).rgb : vec3(layers.x - layers.y);
             seen = frame.isInside ? vec3(1.0) : clamp(1.0 - hard + soft, 0.0, 1.0);
         }
     }
