@@ -23,9 +23,9 @@ bool hasLeft(vec3 aLight, vec3 bLight, vec3 a, vec3 b) {
 // What the triangle adds to the count: 1 where it is between the receiver and the light's centre. A sliver seen within
 // rounding of edge-on may be turned, and adds -1 to what its neighbours have twice.
 int layersOf(LightFrame frame, vec3 posLight, LightTriangle triangle) {
-    float ofReceiver = dot(triangle.plane, vec4(posLight, 1.0));
+    float ofReceiver = sideOf(triangle.plane, posLight);
     float ofLight = volume.light.shape == shapeDistant ? triangle.plane.z : triangle.plane.w;
-    if (sign(ofReceiver) * sign(ofLight) >= 0.0) return 0;
+    if (ofReceiver * sign(ofLight) >= 0.0) return 0;
     vec3 a = unitPlace(frame, posLight, triangle.a.xyz), b = unitPlace(frame, posLight, triangle.b.xyz),
          c = unitPlace(frame, posLight, triangle.c.xyz);
     bool left = hasLeft(triangle.a.xyz, triangle.b.xyz, a, b);

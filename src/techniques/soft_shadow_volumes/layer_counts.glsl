@@ -32,8 +32,7 @@ int firstSampleFrom(float direction) {
 
 // By how much the number of layers changes from the light's centre to a point beyond the edge.
 int changeBeyond(LightFrame frame, Receiver receiver, LightEdge edge, SeenEdge seen) {
-    vec4 p = vec4(receiver.posLight, 1.0);
-    float weight = sign(dot(edge.planes[0], p)) + sign(dot(edge.planes[1], p));
+    float weight = sideOf(edge.planes[0], receiver.posLight) + sideOf(edge.planes[1], receiver.posLight);
     return int((seen.hasLeft ? weight : -weight) * frame.handedness);
 }
 

@@ -37,7 +37,7 @@ bool isSolid(uint triangle, vec3 share) {
 // Marks the points that the triangle hides from the receiver.
 void markHidden(LightFrame frame, vec3 posLight, uint index) {
     LightTriangle triangle = triangles[index];
-    float ofReceiver = dot(triangle.plane, vec4(posLight, 1.0)) * frame.handedness;
+    float ofReceiver = sideOf(triangle.plane, posLight) * frame.handedness;
     vec3 a = unitPlace(frame, posLight, triangle.a.xyz), b = unitPlace(frame, posLight, triangle.b.xyz),
          c = unitPlace(frame, posLight, triangle.c.xyz);
     vec3 low = min(a, min(b, c)), x = vec3(a.x, b.x, c.x), y = vec3(a.y, b.y, c.y), z = vec3(a.z, b.z, c.z);

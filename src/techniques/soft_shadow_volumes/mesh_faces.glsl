@@ -17,8 +17,12 @@ dvec3 exactPositionLight(uint vertex) {
 // The same, to the last bit, in all programs that ask.
 vec3 positionLight(uint vertex) { return vec3(exactPositionLight(vertex)); }
 
+// Of how far a face's farthest corner is from the eye: a few times what a rasterizer loses of a place on the face.
+const double faceRounding = 2e-6lf;
+
 // The same for all three edges of the face, to the last bit, so that they agree on which side a receiver is. Counted
 // from the light's centre: what is lost in rounding grows with how far the receiver is from there, not the face's corners.
+// Its value is 1 where receivers are as far from the face as rounding may put those that are on it (see sideOf).
 vec4 facePlane(uint face) {
     uint first = 3u * (face >> 1);
     dvec3 a = exactPositionLight(indices[first]);
@@ -26,7 +30,10 @@ vec4 facePlane(uint face) {
     precise dvec3 v = exactPositionLight(indices[first + 2u]) - a;
     precise dvec3 normal = dvec3(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
     precise double offset = (normal.x * a.x + normal.y * a.y) + normal.z * a.z;
-    vec4 plane = vec4(vec3(normal), float(-offset));
+    dvec3 eye = dvec3(volume.eyeLight.w * volume.eyeLight.xyz);
+    double farthest = max(length(a - eye), max(length(a + u - eye), length(a + v - eye)));
+    precise double one = length(normal) * (faceRounding * farthest);
+    vec4 plane = one > 0.0lf ? vec4(vec3(normal / one), float(-offset / one)) : vec4(0.0);
     return (face & 1u) == 0u ? plane : -plane;
 }
 

@@ -17,6 +17,15 @@ namespace {
 
 class SoftVolumesContactTest : public TechniqueTest {
   protected:
+    /// Errors where more arrives than at surfaces in a flat light's own plane, of which rounding decides which side
+    /// they show.
+    static VisibilityMetrics judgeReached(const LightResult& truth, const LightResult& result) {
+        const float most = std::ranges::max(truth.reach.values);
+        std::vector<std::uint8_t> reached;
+        for (const float irradiance : truth.reach.values) reached.push_back(irradiance > 1e-6f * most);
+        return compareVisibility(truth.visibility, result.visibility, reached);
+    }
+
     /// Pixels that are off by more than 0.2 while most of those around them are right.
     static int wrongSinglePixels(const LightResult& truth, const LightResult& result) {
         const int width = truth.visibility.width_px, height = truth.visibility.height_px;
@@ -78,7 +87,6 @@ TEST_F(SoftVolumesContactTest, ABoxOnAFloorIsSmoothUpToTheContact) {
         EXPECT_LE(judge(exact, result).leak, 0) << samples;
         EXPECT_EQ(wrongSinglePixels(exact, result), 0) << samples;
     }
-    EXPECT_LE(judge(exact, render("soft-volumes", scene, small, {{"method", "wedges"}})).false_shadow, 0.001);
 }
 
 // More points ask more questions within rounding of an edge; each has the same answer for all that ask it.
@@ -114,7 +122,8 @@ TEST_F(SoftVolumesContactTest, APanelFlushWithWhatCastsIsSeenWhole) {
             const Scene scene = underPanel({{one.ceiling, {0, one.height_m, 0}}}, {0, 2.4f, 0}, {1, 1}, twoSided);
             for (const char* technique : {"soft-volumes", "hard-volumes"}) {
                 if (twoSided && technique == std::string_view("hard-volumes")) continue;
-                const VisibilityMetrics metrics = judge(truth(scene, small, 64), render(technique, scene, small));
+                const VisibilityMetrics metrics =
+                    judgeReached(truth(scene, small, 64), render(technique, scene, small));
                 EXPECT_LE(metrics.rmse, 0.01) << technique << " " << one.name << " " << twoSided;
             }
         }
@@ -151,11 +160,16 @@ TEST_F(SoftVolumesContactTest, ScenesOfTheFieldAreRight) {
     const std::filesystem::path field = "../shared/scenes/field";
     if (!std::filesystem::exists(field)) GTEST_SKIP() << field << " is not here";
     for (const char* name : {"pillar-base", "pillar-yaw20", "ceiling-h27", "ceiling-below_1e-06", "ceiling-rot_tilt",
-                             "fixture-fixture", "room-0", "room-1mm", "city-2", "city-triangle"}) {
-        const Scene scene = openScene((field / name).string() + ".glb");
+                             "fixture-fixture", "room-0", "room-1mm", "city-2", "city-triangle", "ground-volumes", "desk-cord"}) {
+        Scene scene = openScene((field / name).string() + ".glb");
+        if (name == std::string_view("ground-volumes")) {
+            scene = withMoment(std::move(scene), [](SceneMoment& moment) {
+                moment.cameras = {camera("near", {-3.47657f, 0.468566f, 6.61572f}, {0, 0.228347f, 0})};
+            });
+        }
         const VisibilityMetrics metrics =
-            judge(truth(scene, small, 1024), render("soft-volumes", scene, small));
-        EXPECT_LE(metrics.penumbra_rmse, 0.015) << name;
+            judgeReached(truth(scene, small, 1024), render("soft-volumes", scene, small));
+        EXPECT_LE(metrics.penumbra_rmse, 0.01) << name;
         EXPECT_LE(metrics.rmse, 0.01) << name;
     }
 }

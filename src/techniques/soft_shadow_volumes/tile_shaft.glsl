@@ -73,8 +73,8 @@ vec4 shaftPlane(TileBounds tile, TileBounds light, int index) {
 float tileSide(vec4 plane, TileBounds tile) {
     vec3 middle = 0.5 * (tile.low.xyz + tile.high.xyz), reach = 0.5 * (tile.high.xyz - tile.low.xyz);
     float value = dot(plane.xyz, middle) + plane.w;
-    // The margin covers the rounding of the plane.
-    float radius = dot(abs(plane.xyz), reach + 1e-5 * abs(middle)) + 1e-5 * abs(plane.w);
+    // The margin covers the rounding of the plane, and where rounding decides (sideOf).
+    float radius = dot(abs(plane.xyz), reach + 1e-5 * abs(middle)) + 1e-5 * abs(plane.w) + 1.0;
     return abs(value) > radius ? sign(value) : 0.0;
 }
 

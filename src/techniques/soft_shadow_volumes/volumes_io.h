@@ -87,7 +87,7 @@ SHARED_STRUCT WedgeConstants {
 
 // An edge with one or two of its faces, in light space; an edge of more faces is several of these, whose
 // weights add. A face's plane, dotted with (p, 1), is positive where p sees its front, times the direction in
-// which the face walks the edge; that of a missing face is 0.
+// which the face walks the edge, and within 1 of 0 where rounding decides; that of a missing face is 0.
 //
 // aLight.w, bLight.w: 0; or where the face ends because it cuts through a flat light, the sign of z on the
 // side that it is the edge of; or wholeFace: this is no edge but a face that reaches into a sphere, with
@@ -149,6 +149,14 @@ uint wordsOfEdges(uint edgeCount) {
 
 // An order of places that all who ask about an edge agree on.
 bool isBefore(vec3 a, vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
+
+// On which side of a face, by its plane, a receiver is. Where that is lost in rounding, as it is of its own face, where the
+// eye is that sees it there.
+float sideOf(vec4 plane, vec3 posLight) {
+    precise float side = ((plane.x * posLight.x + plane.y * posLight.y) + plane.z * posLight.z) + plane.w;
+    precise vec4 ofEye = plane * volume.eyeLight;
+    return sign(abs(side) > 1.0 ? side : ((ofEye.x + ofEye.y) + ofEye.z) + ofEye.w);
+}
 
 // From the light's centre through a point: the direction in which the point's shadow falls.
 vec3 shadowDirection(vec3 posLight) {
