@@ -95,9 +95,8 @@ void SilhouetteExtractor::extract(std::span<const SilhouetteSource> sources, con
         .bind("Marks", marks_)
         .bind("Offsets", offsets_)
         .bind("Silhouettes", silhouettes_);
-    forEachMesh(pass, [&](const Mesh& mesh) {
-        pass.bind("Positions", gl::HostBuffer{mesh.positionBuffer()});
-    });
+    forEachMesh(pass,
+                [&](const Mesh& mesh) { pass.bind("Positions", gl::HostBuffer{mesh.positionBuffer()}); });
 }
 
 void SilhouetteExtractor::findFacings(std::span<const SilhouetteSource> sources, const LightPoint& point) {

@@ -16,7 +16,13 @@ std::string sentence(const ClaimResult& claim) {
     if (!claim.ours) return fmt::format("Not measured: {}.", claim.text);
     std::string text = fmt::format("{}: {} (ratio {:.2f} here",
                                    claim.holds() ? "Holds" : "Does not hold here", claim.text, *claim.ours);
-    if (claim.paper) text += fmt::format(", {:.2f} in the paper", *claim.paper);
+    if (claim.paper) {
+        text += fmt::format(", {:.2f} in the paper", *claim.paper);
+        if (!claim.isNearPaper())
+            text += fmt::format(", more than {:g} times apart; {}", claim.factor,
+                                claim.hasOrder() ? "the order is the paper's" : "the order is another, too");
+    }
+    if (claim.isBroken) text += "; the picture is visibly broken";
     return text + ").";
 }
 
@@ -57,6 +63,10 @@ std::string standInNote(const std::vector<std::string>& standIns) {
     return standIns.empty() ? "" : fmt::format("Stand-ins: {}.", fmt::join(standIns, ", "));
 }
 
+std::string spread(const Spread& cost_ms) {
+    return fmt::format("{:.1f} ms ({:.1f} to {:.1f})", cost_ms.median, cost_ms.low, cost_ms.high);
+}
+
 std::string optionalNumber(const std::optional<double>& value, const char* format) {
     return value ? fmt::format(fmt::runtime(format), *value) : "";
 }
@@ -71,15 +81,16 @@ std::string measurements(const FigureResult& result) {
         const PanelResult& printed = result.panels[i];
         const bool measured = panel.show == Show::picture || panel.show == Show::visibility;
         if (panel.technique == "reference" || !measured || !printed.missing.empty()) continue;
-        if (!baseCost) baseCost = printed.cost_ms;
+        const auto cost_ms = printed.cost_ms ? std::optional(printed.cost_ms->median) : std::nullopt;
+        if (!baseCost) baseCost = cost_ms;
         if (!basePaper) basePaper = panel.paper;
-        const auto costRatio =
-            printed.cost_ms && baseCost ? std::optional(*printed.cost_ms / *baseCost) : std::nullopt;
+        const auto costRatio = cost_ms && baseCost ? std::optional(*cost_ms / *baseCost) : std::nullopt;
         const auto paperRatio =
             panel.paper && basePaper ? std::optional(*basePaper / *panel.paper) : std::nullopt;
         anything |= printed.cost_ms || printed.penumbraError;
         rows.push_back({panel.caption, optionalNumber(printed.penumbraError, "{:.4f}"),
-                        optionalNumber(printed.maps, "{:.0f}"), optionalNumber(printed.cost_ms, "{:.1f} ms"),
+                        optionalNumber(printed.maps, "{:.0f}"),
+                        printed.cost_ms ? spread(*printed.cost_ms) : "",
                         optionalNumber(costRatio, "{:.2f} x"), optionalNumber(panel.paper, "{:g} fps"),
                         optionalNumber(paperRatio, "{:.2f} x")});
     }
@@ -138,7 +149,7 @@ std::string tableHtml(const TableResult& result) {
                 std::size_t(std::ranges::find(header, table.cells[i].column) - header.begin());
             const CellResult& cell = result.cells[i];
             row[column] = cell.missing.empty()
-                              ? fmt::format("{:.1f} ms, {:.2f} x\npaper: {:g} {}, {:.2f} x", cell.cost_ms,
+                              ? fmt::format("{}, {:.2f} x\npaper: {:g} {}, {:.2f} x", spread(cell.cost_ms),
                                             cell.ours, table.cells[i].paper, table.unit, cell.paper)
                               : cell.missing;
         }
@@ -148,6 +159,14 @@ std::string tableHtml(const TableResult& result) {
            paragraph("paper", table.note) + paragraph("paper", standInNote(result.standIns));
 }
 
+std::string leftOutHtml(const std::vector<LeftOut>& leftOut) {
+    if (leftOut.empty()) return "";
+    const std::vector<std::string> header = {"", "why"};
+    std::vector<std::vector<std::string>> rows;
+    for (const LeftOut& one : leftOut) rows.push_back({one.what, one.why});
+    return "<h2>What has no panel here</h2>\n" + html::table(header, rows);
+}
+
 }  // namespace
 
 std::string toHtml(const PaperResult& result, const Machine& machine, const PressOptions& options,
@@ -155,15 +174,21 @@ std::string toHtml(const PaperResult& result, const Machine& machine, const Pres
     std::string body = fmt::format(
         "<p>{}</p>\n<p>The paper's hardware: {}. Ours: {}; {} ({}); costs are {} of the shadows alone, "
         "everything moving "
-        "a little from frame to frame, ratios to the first of a figure. {} x {} pixels, truth of {} rays a "
+        "a little from frame to frame, medians and quartiles of {} rounds, ratios to the first of a figure. "
+        "A claim "
+        "holds where our ratio is within the stated factor of the paper's or, where the paper has no "
+        "numbers, in its "
+        "order; a picture of which more than {:.0f} % is wrong holds none. {} x {} pixels, truth of {} rays "
+        "a "
         "pixel; commit "
         "{}.<br><code>{}</code></p>\n",
         html::escape(result.paper.citation), html::escape(result.paper.hardware),
         html::escape(machine.processor), html::escape(machine.renderer), html::escape(machine.driver),
-        html::escape(machine.clock), options.size.width_px, options.size.height_px, options.samples,
-        html::escape(machine.commit), html::escape(command));
+        html::escape(machine.clock), options.rounds, 100 * brokenShare, options.size.width_px,
+        options.size.height_px, options.samples, html::escape(machine.commit), html::escape(command));
     for (const FigureResult& figure : result.figures) body += figureHtml(figure);
     for (const TableResult& table : result.tables) body += tableHtml(table);
+    body += leftOutHtml(result.paper.leftOut);
     return html::page(result.paper.name + ", reproduced", body);
 }
 

@@ -111,7 +111,7 @@ TEST(Press, SaysNotYetForWhatIsMissing) {
     for (std::size_t i = 0; i < 3; ++i)
         EXPECT_TRUE(panels[i].missing.starts_with("not yet")) << panels[i].missing;
     EXPECT_TRUE(panels[3].missing.empty());
-    EXPECT_GT(panels[3].cost_ms.value(), 0);
+    EXPECT_GT(panels[3].cost_ms.value().median, 0);
     EXPECT_EQ(panels[3].image.width_px, 48);
     EXPECT_FALSE(result.figures[0].claims[0].ours.has_value());
     EXPECT_TRUE(result.tables[0].cells[1].missing.starts_with("not yet"));
@@ -136,6 +136,20 @@ TEST(Press, JudgesClaimsByTheNumbers) {
     EXPECT_TRUE(result.figures[0].claims[0].holds());
     EXPECT_FALSE(result.figures[0].claims[1].holds());
     EXPECT_NE(judgements(result).find("Does not hold here: hard"), std::string::npos) << judgements(result);
+}
+
+TEST(Press, AClaimHoldsNearThePapersRatioNotWheneverLess) {
+    const ClaimResult near{.text = "t", .ours = 0.5, .paper = 0.4};
+    EXPECT_TRUE(near.holds());
+    // Faster than the paper says is another number than the paper's.
+    const ClaimResult better{.text = "t", .ours = 0.1, .paper = 0.4};
+    EXPECT_FALSE(better.holds());
+    EXPECT_TRUE(better.hasOrder());
+    const ClaimResult wider{.text = "t", .ours = 0.1, .paper = 0.4, .factor = 5};
+    EXPECT_TRUE(wider.holds());
+    const ClaimResult broken{.text = "t", .ours = 0.5, .paper = {}, .isBroken = true};
+    EXPECT_FALSE(broken.holds());
+    EXPECT_FALSE((ClaimResult{.text = "t", .ours = {}, .paper = {}}).holds());
 }
 
 TEST(Press, ShowsOfTheLightsBuffersWhatIsInThem) {

@@ -28,13 +28,22 @@ struct Rendering {
     Image display;
     std::vector<Image> visibilities;
     std::map<std::string, Image> buffers;  ///< by the name that was asked for
-    std::optional<double> penumbraError, maps, cost_ms;
+    std::optional<double> penumbraError, maps;
+    std::optional<Spread> cost_ms;
+    double wrongShare = 0;  ///< see PanelResult
 };
 
 double meanPenumbraError(const TechniqueComparison& technique) {
     double sum = 0;
     for (const LightComparison& light : technique.lights) sum += light.metrics.penumbra_rmse;
     return technique.lights.empty() ? 0 : sum / double(technique.lights.size());
+}
+
+double wrongShare(const TechniqueComparison& technique) {
+    double largest = 0;
+    for (const LightComparison& light : technique.lights)
+        largest = std::max({largest, light.metrics.leak, light.metrics.false_shadow});
+    return largest;
 }
 
 /// How many times the scene was drawn for the first light.
@@ -79,7 +88,7 @@ class Press {
         return viewOf(*stage_, situation);
     }
 
-    std::map<std::string, double> costs(const StageView& view, std::vector<Contender> contenders);
+    std::map<std::string, Spread> costs(const StageView& view, std::vector<Contender> contenders);
     std::map<std::string, Rendering> render(const Figure& figure, const Situation& situation,
                                             std::vector<std::string>& standIns);
 
@@ -90,14 +99,14 @@ class Press {
 };
 
 /// By label; of those that exist.
-std::map<std::string, double> Press::costs(const StageView& view, std::vector<Contender> contenders) {
-    std::map<std::string, double> costs_ms;
+std::map<std::string, Spread> Press::costs(const StageView& view, std::vector<Contender> contenders) {
+    std::map<std::string, Spread> costs_ms;
     if (contenders.empty()) return costs_ms;
     contenders.insert(contenders.begin(), {.label = "yardstick", .technique = "hard", .settings = {}});
     for (const ContestResult& result :
          runContest(workbench_, view.moment, view.camera, options_.size, contenders,
                     {.rounds = options_.rounds, .warmUpRounds = 1, .patience_ms = 6e3})) {
-        if (result.missing.empty()) costs_ms[result.contender.label] = result.cost_ms.median;
+        if (result.missing.empty()) costs_ms[result.contender.label] = result.cost_ms;
     }
     return costs_ms;
 }
@@ -132,7 +141,10 @@ std::map<std::string, Rendering> Press::render(const Figure& figure, const Situa
               {.samples = options_.samples, .timedRuns = 0, .inspect = inspect});
     for (TechniqueComparison& technique : comparison.techniques) {
         Rendering& rendering = renderings[technique.technique];
-        if (figure.judged) rendering.penumbraError = meanPenumbraError(technique);
+        if (figure.judged) {
+            rendering.penumbraError = meanPenumbraError(technique);
+            rendering.wrongShare = wrongShare(technique);
+        }
         rendering.maps = mapsOf(technique);
         rendering.display = std::move(technique.display);
         for (LightComparison& light : technique.lights)
@@ -165,6 +177,7 @@ FigureResult Press::print(const Figure& figure) {
         printed.cost_ms = rendering.cost_ms;
         printed.penumbraError = rendering.penumbraError;
         printed.maps = rendering.maps;
+        printed.wrongShare = rendering.wrongShare;
         switch (panel.show) {
             case Show::picture:
                 printed.image = rendering.display;
@@ -206,13 +219,18 @@ FigureResult Press::print(const Figure& figure) {
     for (const Claim& claim : figure.claims) {
         ClaimResult& judged = result.claims.emplace_back();
         judged.text = claim.text;
+        judged.factor = claim.factor;
         const PanelResult &less = result.panels[claim.less], &more = result.panels[claim.more];
+        judged.isBroken = less.wrongShare > brokenShare;
+        const auto median = [](const PanelResult& panel) {
+            return panel.cost_ms ? std::optional(panel.cost_ms->median) : std::nullopt;
+        };
         const auto ratio = [](const std::optional<double>& a, const std::optional<double>& b) {
             return a && b && *b > 0 ? std::optional<double>(*a / *b) : std::nullopt;
         };
         switch (claim.quantity) {
             case Quantity::cost:
-                judged.ours = ratio(less.cost_ms, more.cost_ms);
+                judged.ours = ratio(median(less), median(more));
                 judged.paper = ratio(figure.panels[claim.more].paper, figure.panels[claim.less].paper);
                 break;
             case Quantity::penumbraError:
@@ -244,7 +262,7 @@ TableResult Press::print(const Table& table) {
                                       .settings = table.cells[i].settings};
             if (exists(contender, result.cells[i].missing)) contenders.push_back(contender);
         }
-        const std::map<std::string, double> measured = costs(view, contenders);
+        const std::map<std::string, Spread> measured = costs(view, contenders);
         for (const Contender& contender : contenders) {
             result.cells[std::size_t(std::stoi(contender.label))].cost_ms = measured.at(contender.label);
         }
@@ -259,9 +277,9 @@ TableResult Press::print(const Table& table) {
                    (cell.row == table.baselineRow && cell.column == table.cells[i].column);
         });
         const auto baseIndex = std::size_t(base - table.cells.begin());
-        const double base_ms = result.cells[baseIndex].cost_ms;
+        const double base_ms = result.cells[baseIndex].cost_ms.median;
         result.cells[i].paper = paperCost(table.cells[i]) / paperCost(*base);
-        if (base_ms > 0) result.cells[i].ours = result.cells[i].cost_ms / base_ms;
+        if (base_ms > 0) result.cells[i].ours = result.cells[i].cost_ms.median / base_ms;
     }
     return result;
 }

@@ -15,14 +15,25 @@ namespace penumbra::studio {
 struct PanelResult {
     std::string missing;  ///< "not yet: ..." where technique, parameter or buffer does not exist; else empty
     Image image;          ///< as it shall be shown
-    std::optional<double> cost_ms, penumbraError, maps;
+    std::optional<Spread> cost_ms;
+    std::optional<double> penumbraError, maps;
+    double wrongShare = 0;  ///< of umbra pixels that are lit, or of lit ones that are dark, whichever is more
 };
+
+/// With more than this wrong, a picture is visibly broken, and holds no claim.
+inline constexpr double brokenShare = 0.05;
 
 struct ClaimResult {
     std::string text;
     std::optional<double> ours;   ///< quantity of the lesser panel over that of the other; none: not measured
     std::optional<double> paper;  ///< the same of the paper's numbers
-    bool holds() const { return ours && *ours < 1; }
+    double factor = 1.5;          ///< see Claim
+    bool isBroken = false;        ///< the lesser panel's picture is
+
+    /// That the lesser panel has less.
+    bool hasOrder() const { return ours && *ours < 1; }
+    bool isNearPaper() const { return ours && paper && *ours <= *paper * factor && *paper <= *ours * factor; }
+    bool holds() const { return !isBroken && (paper ? isNearPaper() : hasOrder()); }
 };
 
 struct FigureResult {
@@ -35,7 +46,7 @@ struct FigureResult {
 
 struct CellResult {
     std::string missing;
-    double cost_ms = 0;
+    Spread cost_ms;
     double ours = 0, paper = 0;  ///< ratios of cost to the table's baseline
 };
 

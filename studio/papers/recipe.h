@@ -66,11 +66,19 @@ struct Panel {
 
 enum class Quantity { cost, penumbraError, maps };
 
-/// That panel `less` has less of something than panel `more`, which the paper says or shows.
+/// That panel `less` has less of something than panel `more`, which the paper says or shows. Where it has
+/// numbers of both, the claim is their ratio, and holds where ours is within `factor` of it; where it has
+/// none, the order is.
 struct Claim {
     std::string text;
     Quantity quantity = Quantity::cost;
     std::size_t less = 0, more = 1;
+    double factor = 1.5;
+};
+
+/// A figure, table or statement of the paper that has no panel here, and why.
+struct LeftOut {
+    std::string what, why;
 };
 
 struct Figure {
@@ -108,6 +116,7 @@ struct Paper {
     std::string hardware;  ///< the paper's
     std::vector<Figure> figures = {};
     std::vector<Table> tables = {};
+    std::vector<LeftOut> leftOut = {};
 };
 
 Paper kirsch2003();

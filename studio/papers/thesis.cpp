@@ -72,6 +72,32 @@ Paper thesis() {
                      .show = Show::visibility}},
          .judged = false});
     paper.figures.push_back(
+        {.id = "Figure 9",
+         .title = "Penumbra wedges",
+         .panels = {{.caption = "wedges, outlined",
+                     .situation = boxes,
+                     .technique = "soft-volumes",
+                     .settings = {{"method", "wedges"}, {"wireframe", "true"}},
+                     .show = Show::buffer,
+                     .buffer = "wireframe"}},
+         .judged = false,
+         .note =
+             "A wedge has six sides and a cap here; the thesis's has eight triangles and eight of caps."});
+    const auto marked = [&](const char* caption, const char* marking) {
+        return Panel{.caption = caption,
+                     .situation = boxes,
+                     .technique = "soft-volumes",
+                     .settings = {{"method", "wedges"}, {"marking", marking}},
+                     .timed = true};
+    };
+    paper.figures.push_back({.id = "Figures 10 and 11",
+                             .title = "Pixels marked in the stencil before wedges are evaluated",
+                             .panels = {marked("marked", "stencil"), marked("not marked", "none")},
+                             .claims = {{"marking costs less than it saves", Quantity::cost, 0, 1}},
+                             .note = "A mark is up to two draws for each half of each wedge, and what it "
+                                     "saves an evaluation that finds "
+                                     "nothing, which costs little."});
+    paper.figures.push_back(
         {.id = "Figures 15 and 16",
          .title = "Lighting and colour added to the V-buffer",
          .panels = {{.caption = "visibility",
@@ -111,7 +137,16 @@ Paper thesis() {
     paper.figures.push_back(screenshot("Figure 27", "Arbitrary shadow receivers", {.scene = "columns"}));
     paper.figures.push_back(
         screenshot("Figure 28", "Several shadow casters", {.scene = "overlapping-blockers"}));
-    paper.figures.push_back(screenshot("Figure 29", "A dynamic light", {.scene = "moving", .time_s = 0.7}));
+    paper.figures.push_back(
+        screenshot("Figure 29", "A dynamic coloured light", {.scene = "moving", .time_s = 0.7}));
+    paper.leftOut = {
+        {"Figures 1 and 2", "Diagrams of hard and soft shadows."},
+        {"Figure 3", "A diagram of a wedge."},
+        {"Figures 5 to 7",
+         "Diagrams of a value of 12 bits in four bytes. Our layers are of 32-bit floats, which the thesis "
+         "expected of later hardware; nothing is split."},
+        {"Figures 12 to 14", "Diagrams of coverage, which is in closed form here."},
+        {"Figures 17 and 18", "Diagrams of capping; hard-volumes has it with open_meshes=capped."}};
     return paper;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles of casters in light space, in clusters with boxes around them, and for each large tile of the V-buffer a list
-// of the clusters that may lie between its receivers and the light.
+// Triangles of casters in light space, in clusters with boxes around them, and for each large tile of the
+// V-buffer a list of the clusters that may lie between its receivers and the light.
 #pragma once
 
 #include "src/device_internals.h"
@@ -36,7 +36,8 @@ class CasterClusters {
 
     enum class Towards { center, light };
     /// Lists what has been added. `tileBounds`: where the receivers of small tiles are.
-    void list(const VolumeFrame& frame, const FrameBinding& binding, const gl::Buffer& tileBounds, Towards towards);
+    void list(const VolumeFrame& frame, const FrameBinding& binding, const gl::Buffer& tileBounds,
+              Towards towards);
     /// `Clusters`, their `Triangles` and the `Lists`.
     void bindTo(gl::Pass& pass) const;
 

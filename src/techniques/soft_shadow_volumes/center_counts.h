@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many layers lie between each receiver and the light's centre, asked of the triangles themselves: what edges
-// change is counted from there (README.md, "Counting layers").
+// How many layers lie between each receiver and the light's centre, asked of the triangles themselves: what
+// edges change is counted from there (README.md, "Counting layers").
 #pragma once
 
 #include "src/techniques/soft_shadow_volumes/caster_clusters.h"

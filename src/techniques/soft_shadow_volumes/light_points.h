@@ -22,8 +22,8 @@ class LightPoints {
 
     /// Of the light they were last placed on.
     int count() const { return count_; }
-    /// Of these, what the pass's shaders declare: `Samples`, their places; `Radiances`, what a textured light radiates
-    /// around them; and `lightTable`, what it radiates beyond each place on it.
+    /// Of these, what the pass's shaders declare: `Samples`, their places; `Radiances`, what a textured light
+    /// radiates around them; and `lightTable`, what it radiates beyond each place on it.
     void bindTo(gl::Pass& pass) const;
 
   private:

@@ -121,7 +121,8 @@ void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const auto frameTime = sizeTimers_.pass(sizePasses[std::size_t(size)]);
     const bool wedges = method_ == int(Method::wedges) && isSoft;
     const bool isDrawn = wedges || !isSoft;
-    VolumeFrame frame(inputs, pixelsPerTexel, isDrawn ? VolumeFrame::Count::drawn : VolumeFrame::Count::asked);
+    VolumeFrame frame(inputs, pixelsPerTexel,
+                      isDrawn ? VolumeFrame::Count::drawn : VolumeFrame::Count::asked);
     if (wedges) {
         WedgeRaster::countAsBlockers(frame);
     } else {

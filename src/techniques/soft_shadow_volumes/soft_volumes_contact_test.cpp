@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where casters stand on what they shade, lights lie in what casts, and faces are far larger than what is seen of them:
-// edges begin beside the receiver there, and counts are asked for within rounding of their changes.
+// Where casters stand on what they shade, lights lie in what casts, and faces are far larger than what is
+// seen of them: edges begin beside the receiver there, and counts are asked for within rounding of their
+// changes.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -17,8 +18,8 @@ namespace {
 
 class SoftVolumesContactTest : public TechniqueTest {
   protected:
-    /// Errors where more arrives than at surfaces in a flat light's own plane, of which rounding decides which side
-    /// they show.
+    /// Errors where more arrives than at surfaces in a flat light's own plane, of which rounding decides
+    /// which side they show.
     static VisibilityMetrics judgeReached(const LightResult& truth, const LightResult& result) {
         const float most = std::ranges::max(truth.reach.values);
         std::vector<std::uint8_t> reached;
@@ -119,7 +120,8 @@ TEST_F(SoftVolumesContactTest, APanelFlushWithWhatCastsIsSeenWhole) {
                           {"on a sheet", sheet, 2.4f}};
     for (const Case& one : cases) {
         for (const bool twoSided : {false, true}) {
-            const Scene scene = underPanel({{one.ceiling, {0, one.height_m, 0}}}, {0, 2.4f, 0}, {1, 1}, twoSided);
+            const Scene scene =
+                underPanel({{one.ceiling, {0, one.height_m, 0}}}, {0, 2.4f, 0}, {1, 1}, twoSided);
             for (const char* technique : {"soft-volumes", "hard-volumes"}) {
                 if (twoSided && technique == std::string_view("hard-volumes")) continue;
                 const VisibilityMetrics metrics =
@@ -143,9 +145,9 @@ TEST_F(SoftVolumesContactTest, CastersThatTouchAPanelsPlaneHideNoMoreThanTheyCov
 // A ground hundreds of times as large as what stands on it casts no shadow on itself.
 TEST_F(SoftVolumesContactTest, FacesFarLargerThanThePictureHideNothingOfThemselves) {
     for (const float width_m : {80.0f, 200.0f, 630.0f, 2000.0f}) {
-        const Scene scene =
-            underPanel({{plane(width_m, width_m), {3.7f, 0, -1.9f}}, {box({0.4f, 0.5f, 0.4f}), {0, 0.25f, 0}}},
-                       {0.9f, 2.4f, 0.7f}, {0.5f, 0.5f});
+        const Scene scene = underPanel(
+            {{plane(width_m, width_m), {3.7f, 0, -1.9f}}, {box({0.4f, 0.5f, 0.4f}), {0, 0.25f, 0}}},
+            {0.9f, 2.4f, 0.7f}, {0.5f, 0.5f});
         const LightResult exact = truth(scene, small);
         for (const char* technique : {"soft-volumes", "hard-volumes"}) {
             const VisibilityMetrics metrics = judge(exact, render(technique, scene, small));
@@ -159,8 +161,9 @@ TEST_F(SoftVolumesContactTest, FacesFarLargerThanThePictureHideNothingOfThemselv
 TEST_F(SoftVolumesContactTest, ScenesOfTheFieldAreRight) {
     const std::filesystem::path field = "../shared/scenes/field";
     if (!std::filesystem::exists(field)) GTEST_SKIP() << field << " is not here";
-    for (const char* name : {"pillar-base", "pillar-yaw20", "ceiling-h27", "ceiling-below_1e-06", "ceiling-rot_tilt",
-                             "fixture-fixture", "room-0", "room-1mm", "city-2", "city-triangle", "ground-volumes", "desk-cord"}) {
+    for (const char* name : {"pillar-base", "pillar-yaw20", "ceiling-h27", "ceiling-below_1e-06",
+                             "ceiling-rot_tilt", "fixture-fixture", "room-0", "room-1mm", "city-2",
+                             "city-triangle", "ground-volumes", "desk-cord"}) {
         Scene scene = openScene((field / name).string() + ".glb");
         if (name == std::string_view("ground-volumes")) {
             scene = withMoment(std::move(scene), [](SceneMoment& moment) {

@@ -96,7 +96,8 @@ void TileLayers::makeResolve() {
     resolveSamples_ = points_.count();
 }
 
-void TileLayers::gatherEdges(const VolumeFrame& frame, const FrameBinding& binding, const VolumeCounter& counter) {
+void TileLayers::gatherEdges(const VolumeFrame& frame, const FrameBinding& binding,
+                             const VolumeCounter& counter) {
     const auto forEach = [&](gl::Program& program, auto&& countOf) {
         gl::Pass pass(program);
         pass.bind(binding).bind("Eye", counter.eye()).bind("LightEdges", lightEdges_);
@@ -117,7 +118,8 @@ void TileLayers::gatherEdges(const VolumeFrame& frame, const FrameBinding& bindi
     });
 }
 
-void TileLayers::boundTiles(const VolumeFrame& frame, const FrameBinding& binding, const VolumeCounter& counter) {
+void TileLayers::boundTiles(const VolumeFrame& frame, const FrameBinding& binding,
+                            const VolumeCounter& counter) {
     gl::Pass(bounds_)
         .bind(binding)
         .bind("liftedDepths", counter.depth())
@@ -125,7 +127,8 @@ void TileLayers::boundTiles(const VolumeFrame& frame, const FrameBinding& bindin
         .dispatchPixels(frame.constants.buffer_px.x, frame.constants.buffer_px.y);
 }
 
-void TileLayers::listEdges(const VolumeFrame& frame, const FrameBinding& binding, const VolumeCounter& counter) {
+void TileLayers::listEdges(const VolumeFrame& frame, const FrameBinding& binding,
+                           const VolumeCounter& counter) {
     const VolumeConstants& constants = frame.constants;
     const int large_px = int(constants.smallTilesALargeOne) * smallTile_px;
     gl::Pass(lists_)

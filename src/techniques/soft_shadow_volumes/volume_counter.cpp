@@ -53,8 +53,7 @@ VolumeCounter::VolumeCounter(Device& device)
 
 void VolumeCounter::allocate(glm::ivec2 size_px) {
     const auto fit = [&](gl::Texture& texture, gl::Format format, std::string_view label) {
-        return texture.fit(
-            {.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = label});
+        return texture.fit({.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = label});
     };
     const bool isNew = fit(counts_, gl::Format::r32f, "soft-volumes/counts");
     if (fit(depth_, gl::Format::depth32f, "soft-volumes/receiver depth") || isNew)
@@ -117,8 +116,8 @@ void VolumeCounter::drawSides(const FrameBinding& binding, const gl::RasterState
         .drawIndirect(gl::Primitive::triangles, eye_, commandOffset);
 }
 
-void VolumeCounter::drawCaps(const VolumeFrame& frame, const FrameBinding& binding, const gl::RasterState& state,
-                             std::size_t ofPair, float sign) const {
+void VolumeCounter::drawCaps(const VolumeFrame& frame, const FrameBinding& binding,
+                             const gl::RasterState& state, std::size_t ofPair, float sign) const {
     gl::Pass pass(caps_);
     pass.bind(binding).into(framebuffer_, state);
     for (std::size_t i = 0; i < frame.sources.size(); ++i) {

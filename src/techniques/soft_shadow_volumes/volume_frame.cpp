@@ -107,9 +107,9 @@ VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel, Count c
     };
     const auto casts = [](const Caster& caster) { return caster.casts && !caster.mesh->indices().empty(); };
 
-    // Lights are put into walls by their centres, and everything is counted from there: so that it lies clearly on one
-    // side, a light that may be cut through is moved by less than a ten-thousandth of its size; and one that may be
-    // flush with a face, to where it shines.
+    // Lights are put into walls by their centres, and everything is counted from there: so that it lies
+    // clearly on one side, a light that may be cut through is moved by less than a ten-thousandth of its
+    // size; and one that may be flush with a face, to where it shines.
     double planeAt_m = 0;
     if (std::ranges::any_of(inputs.casters, [&](const Caster& caster) {
             return casts(caster) && isCut(boxOf(*caster.mesh, lightFromWorld * toGlm(caster.worldFromMesh)));
@@ -137,7 +137,8 @@ VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel, Count c
         sources.push_back(source);
         layersEach.push_back(1);
         cutsLight.push_back(isCut(box));
-        mayHide = mayHide || !(glm::distance(glm::clamp(glm::dvec3(eyeLight), box.low, box.high), glm::dvec3(eyeLight)) > reach_m);
+        mayHide = mayHide || !(glm::distance(glm::clamp(glm::dvec3(eyeLight), box.low, box.high),
+                                             glm::dvec3(eyeLight)) > reach_m);
     }
 
     constants.clipFromLight = bufferFromClip(view, size_px, pixelsPerTexel) * toGlm(view.clipFromView) *

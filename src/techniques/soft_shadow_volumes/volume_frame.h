@@ -38,8 +38,8 @@ struct VolumeFrame {
     /// in every orthographic view.
     bool mayHide = false;
 
-    /// How layers before the light's centre are counted: a flat light's, which may lie in a face, is drawn from a
-    /// place a little before it; asked of triangles, what lies in its plane is left out.
+    /// How layers before the light's centre are counted: a flat light's, which may lie in a face, is drawn
+    /// from a place a little before it; asked of triangles, what lies in its plane is left out.
     enum class Count { drawn, asked };
 
     /// `pixelsPerTexel`: 1, 2, 4: the V-buffer's texel (i, j) stands for the pixel at that multiple of (i,
@@ -53,8 +53,8 @@ struct VolumeFrame {
     LightPoint center() const;
 };
 
-/// Says once in the log that holes of alpha masks are not seen where volumes are drawn: edges are the triangles', and a
-/// masked caster blocks as a whole.
+/// Says once in the log that holes of alpha masks are not seen where volumes are drawn: edges are the
+/// triangles', and a masked caster blocks as a whole.
 class AlphaMaskWarning {
   public:
     explicit AlphaMaskWarning(Device& device) : log_(device.internals().log) {}

@@ -15,13 +15,14 @@ const float inPlane = 1e-4f;
 
 // The light, the eye and the V-buffer as all passes see them, in light space.
 SHARED_STRUCT VolumeConstants {
-    mat4 clipFromLight;  // the view's, shifted so that texels of the V-buffer lie on the pixels they stand for
-    vec4 eyeLight;       // homogeneous: w = 1 a place, w = 0 the direction towards an orthographic viewer
+    mat4
+        clipFromLight;  // the view's, shifted so that texels of the V-buffer lie on the pixels they stand for
+    vec4 eyeLight;      // homogeneous: w = 1 a place, w = 0 the direction towards an orthographic viewer
     LightConstants light;
-    ivec2 buffer_px;     // the V-buffer's size
-    int pixelsPerTexel;  // along each axis
-    bool32 isReversed;   // depth is: nearer is more
-    uint smallTilesAcross;     // a row of them
+    ivec2 buffer_px;        // the V-buffer's size
+    int pixelsPerTexel;     // along each axis
+    bool32 isReversed;      // depth is: nearer is more
+    uint smallTilesAcross;  // a row of them
     uint largeTilesAcross;
     uint smallTilesALargeOne;  // along each of its sides
     uint listWords;            // of a large tile's list of edges
@@ -37,12 +38,12 @@ struct
 #endif
     MeshConstants {
     dmat4 lightFromMesh;
-    uint count;           // of the edges or triangles that are looked at
-    bool32 cutsLight;     // it may cut through the light
-    uint firstTriangle;   // that is looked at
-    uint firstCluster;    // where its clusters go in the list
-    int layersEach;       // a triangle counts for
-    float sign;           // 1: what is before the receiver counts; -1: what is behind
+    uint count;          // of the edges or triangles that are looked at
+    bool32 cutsLight;    // it may cut through the light
+    uint firstTriangle;  // that is looked at
+    uint firstCluster;   // where its clusters go in the list
+    int layersEach;      // a triangle counts for
+    float sign;          // 1: what is before the receiver counts; -1: what is behind
     uint unused0;
     uint unused1;
 };
@@ -67,9 +68,9 @@ SHARED_STRUCT ResolveConstants {
 
 SHARED_STRUCT CountingConstants {
     uint casterCount;
-    int counting;     // 0: Z-pass where it is safe; 1: Z-pass; 2: Z-fail
+    int counting;  // 0: Z-pass where it is safe; 1: Z-pass; 2: Z-fail
     bool32 hasEdges;
-    bool32 mayHide;   // there may be triangles before the receivers that the picture does not show
+    bool32 mayHide;  // there may be triangles before the receivers that the picture does not show
 };
 
 SHARED_STRUCT SidesConstants {
@@ -107,8 +108,9 @@ struct LightTriangle {
     vec4 plane;
 };
 
-// How many of them make a cluster, and so many clusters a group of center_counts.comp.glsl goes through: were it to look at
-// each of their triangles, a software rasterizer would still do all that it is asked (README.md, "Rounds").
+// How many of them make a cluster, and so many clusters a group of center_counts.comp.glsl goes through: were
+// it to look at each of their triangles, a software rasterizer would still do all that it is asked
+// (README.md, "Rounds").
 const uint clusterTriangles = 32u;
 const uint clustersAtOnce = 1024u;
 
@@ -148,10 +150,12 @@ uint wordsOfEdges(uint edgeCount) {
 }
 
 // An order of places that all who ask about an edge agree on.
-bool isBefore(vec3 a, vec3 b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; }
+bool isBefore(vec3 a, vec3 b) {
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
 
-// On which side of a face, by its plane, a receiver is. Where that is lost in rounding, as it is of its own face, where the
-// eye is that sees it there.
+// On which side of a face, by its plane, a receiver is. Where that is lost in rounding, as it is of its own
+// face, where the eye is that sees it there.
 float sideOf(vec4 plane, vec3 posLight) {
     precise float side = ((plane.x * posLight.x + plane.y * posLight.y) + plane.z * posLight.z) + plane.w;
     precise vec4 ofEye = plane * volume.eyeLight;

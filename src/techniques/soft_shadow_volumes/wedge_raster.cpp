@@ -33,8 +33,7 @@ void WedgeRaster::countAsBlockers(VolumeFrame& frame) {
 
 void WedgeRaster::allocate(glm::ivec2 size_px, bool isTextured, Options options) {
     const auto fit = [&](gl::Texture& texture, gl::Format format, std::string_view label) {
-        return texture.fit(
-            {.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = label});
+        return texture.fit({.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = label});
     };
     if (isTextured != (colors_.name() != 0)) layers_ = {};
     if (fit(layers_, gl::Format::rg32f, "soft-volumes/V-buffer layers")) {
@@ -64,7 +63,8 @@ void WedgeRaster::bindEdges(gl::Pass& pass, const FrameBinding& binding, const V
         .bind("Commands", counter.silhouettes().commands());
 }
 
-void WedgeRaster::bindEvaluation(gl::Pass& pass, const FrameBinding& binding, const VolumeCounter& counter) const {
+void WedgeRaster::bindEvaluation(gl::Pass& pass, const FrameBinding& binding,
+                                 const VolumeCounter& counter) const {
     bindEdges(pass, binding, counter);
     pass.bind("liftedDepths", counter.depth()).bind(points_);
 }
@@ -82,8 +82,8 @@ void WedgeRaster::drawAll(const FrameBinding& binding, const VolumeCounter& coun
         .drawIndirect(gl::Primitive::triangles, counter.eye(), offsetof(EyeState, wedges));
 }
 
-void WedgeRaster::drawMarked(const VolumeFrame& frame, const FrameBinding& binding, const VolumeCounter& counter,
-                             Counting counting) {
+void WedgeRaster::drawMarked(const VolumeFrame& frame, const FrameBinding& binding,
+                             const VolumeCounter& counter, Counting counting) {
     const VolumeConstants& constants = frame.constants;
     depthAndMarks_.clear();
     counter.drawReceiverDepth(framebuffer_, binding, constants.buffer_px);
@@ -105,12 +105,13 @@ void WedgeRaster::drawMarked(const VolumeFrame& frame, const FrameBinding& bindi
     evaluate.cull = gl::Cull::front;
     evaluate.colorWrite = true;
     evaluate.blend = gl::Blend::sum;
-    evaluate.stencil =
-        gl::StencilState{.compare = gl::Compare::notEqual, .front = {.passes = zero}, .back = {.passes = zero}};
+    evaluate.stencil = gl::StencilState{
+        .compare = gl::Compare::notEqual, .front = {.passes = zero}, .back = {.passes = zero}};
 
     // Nothing is read back: each edge is drawn that may be a silhouette, and those that are none have no
     // triangles.
-    const auto draw = [&](gl::Pass& pass, const gl::RasterState& state, int wedge, const WedgeConstants& how) {
+    const auto draw = [&](gl::Pass& pass, const gl::RasterState& state, int wedge,
+                          const WedgeConstants& how) {
         pass.constants(how)
             .into(framebuffer_, state)
             .draw(gl::Primitive::triangles, verticesPerWedge, std::size_t(verticesPerWedge * wedge));
