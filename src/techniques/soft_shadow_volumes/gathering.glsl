@@ -4,10 +4,34 @@
 layout(std430) buffer Eye { EyeState eye; };
 layout(std430) writeonly buffer LightEdges { LightEdge lightEdges[]; };
 
+const uint mostOwn = 4u;
+LightEdge own[mostOwn];
+uint ownCount = 0u;
+
 // Edges for which there is no room are counted all the same.
-void gather(LightEdge edge) {
-    uint place = atomicAdd(eye.edgeCount, 1u);
+void put(uint place, LightEdge edge) {
     if (place < 32u * volume.listWords) lightEdges[place] = edge;
+}
+
+// Few invocations have more than one or two.
+void gather(LightEdge edge) {
+    if (ownCount < mostOwn) own[ownCount++] = edge;
+    else put(atomicAdd(eye.edgeCount, 1u), edge);
+}
+
+shared uint groupCount, groupFirst;
+
+// For all invocations of a group, at the end: what they have gathered goes side by side, so that words of the list
+// (soft_boxes.comp.glsl) hold neighbours on the mesh.
+void putGathered() {
+    bool isFirst = gl_LocalInvocationIndex == 0u;
+    if (isFirst) groupCount = 0u;
+    barrier();
+    uint place = ownCount > 0u ? atomicAdd(groupCount, ownCount) : 0u;
+    barrier();
+    if (isFirst && groupCount > 0u) groupFirst = atomicAdd(eye.edgeCount, groupCount);
+    barrier();
+    for (uint i = 0u; i < ownCount; ++i) put(groupFirst + place + i, own[i]);
 }
 
 // From the end that comes first, so that an edge is asked the same question as the sides of its faces are.

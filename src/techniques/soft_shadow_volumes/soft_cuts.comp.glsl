@@ -33,7 +33,7 @@ void gatherCut(vec3 corners[3], vec4 plane, float side) {
     gatherEdge(vec4(from, side), vec4(to, side), vec4[2](plane, vec4(0.0)));
 }
 
-void main() {
+void gatherCuts() {
     uint triangle = gl_GlobalInvocationID.x;
     if (triangle >= mesh.count) return;
     vec3 corners[3];
@@ -50,4 +50,9 @@ void main() {
     if (isInLightPlane(2u * triangle)) return;
     gatherCut(corners, plane, -1.0);
     if (!volume.light.isOneSided) gatherCut(corners, plane, 1.0);
+}
+
+void main() {
+    gatherCuts();
+    putGathered();
 }

@@ -30,7 +30,7 @@ void gatherSide(vec3 a, vec3 b, vec4 planes[2], float side) {
     gatherEdge(vec4(from, 0.0), vec4(to, 0.0), planes);
 }
 
-void main() {
+void gatherEdges() {
     if (gl_GlobalInvocationID.x >= mesh.count) return;
     Edge edge = edges[gl_GlobalInvocationID.x];
     vec3 a = positionLight(edge.a), b = positionLight(edge.b);
@@ -58,4 +58,9 @@ void main() {
             gatherEdge(vec4(a, 0.0), vec4(b, 0.0), planes);
         }
     }
+}
+
+void main() {
+    gatherEdges();
+    putGathered();
 }

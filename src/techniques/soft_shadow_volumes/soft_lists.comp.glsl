@@ -10,6 +10,7 @@ layout(local_size_x = 64) in;
 
 layout(std430) readonly buffer LightEdges { LightEdge lightEdges[]; };
 layout(std430) readonly buffer Eye { EyeState eye; };
+layout(std430) readonly buffer WordBoxes { TriangleCluster wordBoxes[]; };  // see soft_boxes.comp.glsl
 layout(std430) writeonly buffer Lists { uint lists[]; };
 
 void main() {
@@ -22,7 +23,8 @@ void main() {
     uint words = min(wordsOfEdges(eye.edgeCount), part + 512u);
     for (uint word = part + gl_LocalInvocationIndex; word < words; word += 64u) {
         uint bits = 0u;
-        uint count = isEmpty ? 0u : min(32u, eye.edgeCount - 32u * word);
+        bool isNear = !isEmpty && meetsShaft(wordBoxes[word].low.xyz, wordBoxes[word].high.xyz);
+        uint count = isNear ? min(32u, eye.edgeCount - 32u * word) : 0u;
         for (uint i = 0u; i < count; ++i) {
             if (mayMatter(lightEdges[32u * word + i])) bits |= 1u << i;
         }

@@ -5,6 +5,8 @@
 #include <array>
 #include <limits>
 
+#include "src/geometry/edge_mesh.h"
+
 namespace penumbra {
 namespace {
 
@@ -41,6 +43,12 @@ void SoftVolumes::describe(ParameterVisitor& visitor) {
     visitor.choice(
         {.name = "v_buffer", .help = "width and height of the V-buffer, as a part of the picture's"},
         vBufferSize_, sizes);
+    static constexpr std::array<std::string_view, 2> upsamplings = {"plane", "point"};
+    visitor.choice(
+        {.name = "upsampling",
+         .help = "of a smaller V-buffer: plane: pixels take from texels on their own plane; point: as "
+                 "published, from the one they lie in, so that shadows bleed over outlines"},
+        upsampling_, upsamplings);
     visitor.real({.name = "frame_budget_ms",
                   .unit = "ms",
                   .help = "device time that the V-buffer's size is chosen to keep to; 0: v_buffer says"},
@@ -99,6 +107,7 @@ void SoftVolumes::upsample(const VisibilityBuffer& out) {
     const std::array<GLuint, 3> none = {0, 1, 1};
     mixedTiles_.write(std::as_bytes(std::span(none)));
     gl::Pass(upsampleEven_)
+        .constants(UpsampleConstants{.byPoint = upsampling_ == int(Upsampling::point)})
         .bind(binding_)
         .bind("MixedTiles", mixedTiles_)
         .bind("vBuffer", vBuffer_)
@@ -128,6 +137,8 @@ void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     } else {
         layers_.prepare(frame, effort_);
     }
+    edgeCount_ = 0;
+    for (const SilhouetteSource& source : frame.sources) edgeCount_ += edgesOf(*source.mesh).edgeCount();
     binding_.fill(inputs.view, frame);
     if (isDrawn) {
         alphaMaskWarning_.check(inputs.casters);
@@ -166,7 +177,7 @@ void SoftVolumes::inspect(InspectionVisitor& visitor) const {
 }
 
 Statistics SoftVolumes::statistics() const {
-    Statistics statistics{.counts = {{"edges", double(counter_.silhouettes().edgeCount())},
+    Statistics statistics{.counts = {{"edges", double(edgeCount_)},
                                      {"edge memory", double(layers_.size_bytes()) / (1 << 20), "MiB"}},
                           .passes = passTimes(timers_)};
     if (const std::size_t edges = layers_.edgesWithoutRoom(counter_); edges > 0)

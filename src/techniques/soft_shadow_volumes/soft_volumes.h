@@ -33,10 +33,13 @@ class SoftVolumes final : public Technique {
     TileLayers::Effort effort_;
     int marking_ = int(WedgeRaster::Marking::none);
     bool wireframe_ = false;
-    int vBufferSize_ = 0;       // full, half, quarter
-    float frameBudget_ms_ = 0;  // 0: none
-    int budgetedSize_ = 0;      // the size that the budget has led to
-    int framesAtSize_ = 0;      // since then
+    int vBufferSize_ = 0;  // full, half, quarter
+    enum class Upsampling { plane, point };
+    int upsampling_ = int(Upsampling::plane);
+    float frameBudget_ms_ = 0;   // 0: none
+    std::size_t edgeCount_ = 0;  // of the last frame's casters
+    int budgetedSize_ = 0;       // the size that the budget has led to
+    int framesAtSize_ = 0;       // since then
 
     const bool isSoftware_;
     VolumeCounter counter_;

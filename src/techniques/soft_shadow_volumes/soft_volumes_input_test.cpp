@@ -202,7 +202,7 @@ TEST_F(SoftVolumesInputTest, SliversOfALightOverTheHorizonAreSampledAsWell) {
     }
 }
 
-TEST_F(SoftVolumesInputTest, AlphaMasksBlockAsAWholeAndTheLogSaysSo) {
+TEST_F(SoftVolumesInputTest, AlphaMasksOfWedgesBlockAsAWholeAndTheLogSaysSo) {
     const Scene solid = makeBuiltin("two-boxes");
     Scene masked = solid;
     masked.pictures.push_back({.name = "holes", .width_px = 1, .height_px = 1, .rgba = {255, 255, 255, 0}});
@@ -211,14 +211,28 @@ TEST_F(SoftVolumesInputTest, AlphaMasksBlockAsAWholeAndTheLogSaysSo) {
     masked.materials[std::size_t(upper)].alpha = Material::Alpha::mask;
     masked.materials[std::size_t(upper)].baseColorTexture = int(masked.textures.size()) - 1;
     testing::internal::CaptureStdout();
-    const LightResult result = render("soft-volumes", masked, size);
+    const LightResult result = render("soft-volumes", masked, size, {{"method", "wedges"}});
     EXPECT_NE(testing::internal::GetCapturedStdout().find("as if their masks had no holes"),
               std::string::npos);
     // What is not drawn of the masked box shows the ground, in the box's shadow.
     EXPECT_GT(shareOfDifferentPixels(result, truth(masked, size, 16), 0.5f), 0.02);
     testing::internal::CaptureStdout();
-    render("soft-volumes", solid, size);
+    render("soft-volumes", solid, size, {{"method", "wedges"}});
     EXPECT_EQ(testing::internal::GetCapturedStdout().find("masks"), std::string::npos);
+}
+
+TEST_F(SoftVolumesInputTest, LayersSeeTheHolesOfAlphaMasks) {
+    Picture holes{.name = "holes", .width_px = 8, .height_px = 8, .rgba = {}};
+    for (int i = 0; i < 64; ++i)
+        holes.rgba.insert(holes.rgba.end(), {255, 255, 255, std::uint8_t((i + i / 8) % 2 == 0 ? 255 : 0)});
+    const Scene scene = withAlphaMask(makeBuiltin("half-plane"), std::move(holes));
+    const LightResult exact = truth(scene, size);
+    const VisibilityMetrics metrics = judge(exact, render("soft-volumes", scene, size));
+    EXPECT_GT(judge(exact, render("soft-volumes", scene, size, {{"method", "wedges"}})).penumbra_rmse, 0.2);
+    EXPECT_LE(metrics.penumbra_rmse, 0.06);
+    // More points see more.
+    EXPECT_LT(judge(exact, render("soft-volumes", scene, size, {{"samples", "256"}})).penumbra_rmse,
+              metrics.penumbra_rmse);
 }
 
 }  // namespace

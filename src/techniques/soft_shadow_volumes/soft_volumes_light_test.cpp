@@ -189,8 +189,9 @@ TEST_F(SoftVolumesLightTest, TexturedLightsHaveThreeVisibilities) {
     const LightResult result = render("soft-volumes", scene, size);
     ASSERT_EQ(result.visibility.channels, 3);
     const VisibilityMetrics metrics = judge(truth(scene, size), result);
-    EXPECT_LE(metrics.mae, 0.01);
-    EXPECT_LE(metrics.penumbra_rmse, 0.04);
+    EXPECT_LE(metrics.mae, 0.005);
+    // The truth's own noise in a penumbra is 0.01 here.
+    EXPECT_LE(metrics.penumbra_rmse, 0.02);
 }
 
 }  // namespace

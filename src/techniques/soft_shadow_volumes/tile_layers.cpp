@@ -38,6 +38,7 @@ TileLayers::TileLayers(Device& device)
     : device_(device.internals()),
       gather_(device_.shaders, {shader("soft_gather")}),
       cuts_(device_.shaders, {shader("soft_cuts")}),
+      boxes_(device_.shaders, {shader("soft_boxes")}),
       bounds_(device_.shaders, {shader("soft_bounds")}),
       lists_(device_.shaders, {shader("soft_lists")}),
       clusters_(device),
@@ -64,6 +65,7 @@ void TileLayers::prepare(VolumeFrame& frame, Effort effort) {
     isLimited_ = recordCount_ < records;
     const std::size_t words = (recordCount_ + 31) / 32;
     lightEdges_.reserve(words * 32 * sizeof(LightEdge), "soft-volumes/edges");
+    wordBoxes_.reserve(words * sizeof(TriangleCluster), "soft-volumes/boxes of edges");
 
     const glm::ivec2 size_px = frame.constants.buffer_px;
     const auto tilesOf = [&](int tile_px) { return (size_px + tile_px - 1) / tile_px; };
@@ -116,6 +118,12 @@ void TileLayers::gatherEdges(const VolumeFrame& frame, const FrameBinding& bindi
     forEach(cuts_, [&](gl::Pass&, std::size_t i) {
         return frame.cutsLight[i] ? frame.sources[i].mesh->indices().size() / 3 : 0;
     });
+    gl::Pass(boxes_)
+        .bind(binding)
+        .bind("LightEdges", lightEdges_)
+        .bind("Eye", counter.eye())
+        .bind("WordBoxes", wordBoxes_)
+        .dispatch((frame.constants.listWords + 63) / 64);
 }
 
 void TileLayers::boundTiles(const VolumeFrame& frame, const FrameBinding& binding,
@@ -136,6 +144,7 @@ void TileLayers::listEdges(const VolumeFrame& frame, const FrameBinding& binding
         .bind("Bounds", tileBounds_)
         .bind("LightEdges", lightEdges_)
         .bind("Eye", counter.eye())
+        .bind("WordBoxes", wordBoxes_)
         .bind("Lists", tileLists_)
         .dispatch(constants.largeTilesAcross, std::size_t((constants.buffer_px.y + large_px - 1) / large_px),
                   constants.listWords / 512 + 1);
@@ -231,8 +240,8 @@ std::size_t TileLayers::edgesWithoutRoom(const VolumeCounter& counter) const {
 }
 
 std::size_t TileLayers::size_bytes() const {
-    return lightEdges_.size_bytes() + tileBounds_.size_bytes() + tileLists_.size_bytes() +
-           states_.size_bytes() + rounds_.size_bytes() + clusters_.size_bytes();
+    return lightEdges_.size_bytes() + wordBoxes_.size_bytes() + tileBounds_.size_bytes() +
+           tileLists_.size_bytes() + states_.size_bytes() + rounds_.size_bytes() + clusters_.size_bytes();
 }
 
 }  // namespace penumbra

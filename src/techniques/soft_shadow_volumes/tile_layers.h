@@ -53,12 +53,12 @@ class TileLayers {
                  const gl::TextureRef& target);
 
     Device::Internals& device_;
-    gl::Program gather_, cuts_, bounds_, lists_, resolve_;
+    gl::Program gather_, cuts_, boxes_, bounds_, lists_, resolve_;
     CasterClusters clusters_;
     CenterCounts centerCounts_;
     MaskedPoints maskedPoints_;
     LightPoints points_;
-    gl::Buffer lightEdges_, tileBounds_, tileLists_, states_, rounds_;
+    gl::Buffer lightEdges_, wordBoxes_, tileBounds_, tileLists_, states_, rounds_;
     gl::Texture edgeCounts_;
     Effort effort_;
     int resolveSamples_ = 0;  // that `resolve_` was made for

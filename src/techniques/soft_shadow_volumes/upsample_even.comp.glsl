@@ -15,6 +15,8 @@ uniform writeonly image2D visibility;
 shared vec3 around[64];
 shared uint differences;
 
+layout(std140) uniform Constants { UpsampleConstants how; };
+
 void main() {
     int scale = volume.pixelsPerTexel;
     int lane = int(gl_LocalInvocationIndex);
@@ -26,10 +28,12 @@ void main() {
     barrier();
     if (lane < width * width && around[lane] != around[0]) differences = 1u;
     barrier();
-    if (lane == 0 && differences != 0u) {
+    if (lane == 0 && differences != 0u && !how.byPoint) {
         mixedTiles[3u + atomicAdd(mixedTiles[0], 1u)] = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     }
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, view.size_px))) return;
-    imageStore(visibility, pixel, vec4(isReceiver(pixel) ? around[0] : vec3(1.0), 1.0));
+    // As published, a pixel takes from the texel it lies in, whatever that shows (figure 19).
+    vec3 seen = how.byPoint ? texelFetch(vBuffer, pixel / scale, 0).rgb : around[0];
+    imageStore(visibility, pixel, vec4(isReceiver(pixel) ? seen : vec3(1.0), 1.0));
 }

@@ -77,6 +77,10 @@ SHARED_STRUCT SidesConstants {
     float sign;  // as of MeshConstants
 };
 
+SHARED_STRUCT UpsampleConstants {
+    bool32 byPoint;  // pixels take from the texel that they lie in
+};
+
 SHARED_STRUCT PointsConstants {
     int count;
 };
@@ -114,7 +118,7 @@ struct LightTriangle {
 const uint clusterTriangles = 32u;
 const uint clustersAtOnce = 1024u;
 
-// Around a cluster. low.x > high.x: nothing of it hides anything.
+// Around a cluster of triangles or a word of edges. low.x > high.x: nothing of it hides anything.
 struct TriangleCluster {
     vec4 low;
     vec4 high;
