@@ -2,6 +2,7 @@
 #include "studio/bench/judge.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
@@ -65,6 +66,28 @@ TechniqueComparison compareOne(const TechniqueResult& truth, TechniqueResult&& r
         }
     }
     return comparison;
+}
+
+/// More than contact shadows that coarse maps lose.
+constexpr double suspiciousShare = 0.02;
+
+/// Where all techniques, which look in different ways, see light that rays do not, the rays are to be doubted
+/// first.
+void doubtTruth(const TechniqueResult& truth, const Comparison& comparison) {
+    if (comparison.techniques.size() < 2) return;
+    for (std::size_t i = 0; i < truth.lights.size(); ++i) {
+        std::vector<Image> results;
+        for (const TechniqueComparison& technique : comparison.techniques)
+            results.push_back(technique.lights[i].visibility);
+        const LightResult& light = truth.lights[i];
+        const double share = shareDarkInTruthAlone(light.visibility, results, reachedPixels(light.reach));
+        if (share <= suspiciousShare) continue;
+        spdlog::warn(
+            "light '{}': {:.1f} % of what it reaches is dark by the reference and lit by all {} techniques: "
+            "the "
+            "reference may be wrong there; look at its picture before you judge by it",
+            light.light, 100 * share, results.size());
+    }
 }
 
 /// All frames of the motion, every technique in each, so that each technique keeps what it keeps between
@@ -154,6 +177,7 @@ Comparison judge(Workbench& workbench, const Scene& scene, const SceneMoment& mo
             truth, workbench.run(contender.label, *technique, moment, camera, size, options.timedRuns)));
         options.inspect(contender, *technique);
     }
+    doubtTruth(truth, comparison);
     if (options.flicker) {
         measureFlicker(workbench, scene, moment, camera, size, contenders, options, reference, comparison);
     }

@@ -98,4 +98,21 @@ VisibilityMetrics compareVisibility(const Image& truth, const Image& test,
     return metrics;
 }
 
+double shareDarkInTruthAlone(const Image& truth, std::span<const Image> tests,
+                             std::span<const std::uint8_t> mask) {
+    for (const Image& test : tests) checkSizes(truth, test, mask);
+    std::size_t samples = 0, alone = 0;
+    for (std::size_t pixel = 0; pixel < truth.pixelCount(); ++pixel) {
+        if (!mask.empty() && mask[pixel] == 0) continue;
+        for (int c = 0; c < truth.channels; ++c) {
+            ++samples;
+            alone += truth.values[pixel * truth.channels + c] <= 0.1f &&
+                     std::ranges::all_of(tests, [&](const Image& test) {
+                         return test.values[pixel * test.channels + (test.channels == 1 ? 0 : c)] >= 0.9f;
+                     });
+        }
+    }
+    return tests.empty() ? 0 : meanOf(double(alone), samples);
+}
+
 }  // namespace penumbra::studio

@@ -42,4 +42,9 @@ struct VisibilityMetrics {
 VisibilityMetrics compareVisibility(const Image& truth, const Image& test,
                                     std::span<const std::uint8_t> mask = {});
 
+/// The share of masked samples that are dark in the truth (<= 0.1) and lit in every test (>= 0.9): where
+/// several tests err alike, or the truth does. 0 without tests. Sizes, channels and mask as above.
+double shareDarkInTruthAlone(const Image& truth, std::span<const Image> tests,
+                             std::span<const std::uint8_t> mask = {});
+
 }  // namespace penumbra::studio

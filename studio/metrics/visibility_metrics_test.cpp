@@ -126,5 +126,16 @@ TEST(VisibilityMetrics, RefusesWhatDoesNotFit) {
     EXPECT_EQ(compareVisibility(Image(), Image()).samples, 0u);
 }
 
+TEST(VisibilityMetrics, DarkInTheTruthAloneIsWhatNoTestAgreesWith) {
+    const Image truth = row({0.0f, 0.05f, 0.0f, 0.5f, 1.0f});
+    const std::vector<Image> tests{row({1.0f, 0.95f, 1.0f, 1.0f, 1.0f}), row({1.0f, 1.0f, 0.3f, 1.0f, 1.0f})};
+    EXPECT_DOUBLE_EQ(shareDarkInTruthAlone(truth, tests), 0.4);
+    EXPECT_DOUBLE_EQ(shareDarkInTruthAlone(truth, std::span(tests).first(1)), 0.6);
+    EXPECT_DOUBLE_EQ(shareDarkInTruthAlone(truth, {}), 0);
+    const std::vector<std::uint8_t> mask{1, 0, 0, 0, 1};
+    EXPECT_DOUBLE_EQ(shareDarkInTruthAlone(truth, tests, mask), 0.5);
+    EXPECT_THROW(shareDarkInTruthAlone(row({0}), tests), InputError);
+}
+
 }  // namespace
 }  // namespace penumbra::studio

@@ -10,15 +10,24 @@
 
 namespace penumbra::studio {
 
-/// rtcOccluded16 for rays that go much the same way: tfar is -infinity where something blocks an active one.
-inline void occludeCoherent(const int* active, RTCScene scene, RTCRay16& rays) {
+/// What Embree hands on from a call to filters.
 #if PENUMBRA_EMBREE_MAJOR >= 4
+using RayContext = RTCRayQueryContext;
+#else
+using RayContext = RTCIntersectContext;
+#endif
+
+/// rtcOccluded16 for rays that go much the same way: tfar is -infinity where something blocks an active one.
+/// The context is filled in.
+inline void occludeCoherent(const int* active, RTCScene scene, RayContext& context, RTCRay16& rays) {
+#if PENUMBRA_EMBREE_MAJOR >= 4
+    rtcInitRayQueryContext(&context);
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
     arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    arguments.context = &context;
     rtcOccluded16(active, scene, &rays, &arguments);
 #else
-    RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcOccluded16(active, scene, &context, &rays);

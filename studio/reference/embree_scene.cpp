@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
+#include <optional>
 
 #include "studio/errors.h"
 #include "studio/reference/embree.h"
 #include "studio/reference/occlusion_scene.h"
+#include "studio/reference/traced_triangle.h"
 
 namespace penumbra::studio {
 namespace {
@@ -28,62 +31,118 @@ void RayFan::resize(std::size_t count) {
         component->resize(count);
 }
 
-/// What the filter needs to know at a hit.
-struct OcclusionScene::Mask {
-    AlphaTexture texture;
-    std::vector<glm::vec2> uvs;
+/// A caster's triangles as Embree has them, and its holes. Embree keeps pointers into it.
+struct OcclusionScene::Surface {
+    std::vector<glm::vec3> positions;  // world space, and one more at the end: Embree reads 16 bytes of each
     std::vector<std::uint32_t> indices;
+    std::optional<AlphaTexture> holes;
+    std::vector<glm::vec2> uvs;
 
-    bool blocksAt(unsigned triangle, float u, float v) const {
-        if (uvs.empty()) return texture.blocks({0, 0});
-        const std::uint32_t* corners = &indices[3 * std::size_t(triangle)];
-        return texture.blocks((1 - u - v) * uvs[corners[0]] + u * uvs[corners[1]] + v * uvs[corners[2]]);
+    explicit Surface(const TracedCaster& caster) : indices(caster.indices.begin(), caster.indices.end()) {
+        const glm::dmat4 worldFromMesh(caster.worldFromMesh);
+        positions.reserve(caster.positions.size() + 1);
+        for (const glm::vec3& position : caster.positions)
+            positions.emplace_back(worldFromMesh * glm::dvec4(position, 1));
+        positions.emplace_back(0);
+        if (!caster.alphaMask) return;
+        holes.emplace(*caster.alphaMask);
+        uvs.assign(caster.uvs.begin(), caster.uvs.end());
     }
 
-    /// Called by Embree for hits of masked casters: lets the rays through holes go on.
+    TracedTriangle triangle(unsigned number) const {
+        const std::uint32_t* corners = &indices[3 * std::size_t(number)];
+        return {positions[corners[0]], positions[corners[1]], positions[corners[2]]};
+    }
+
+    bool isSolidAt(unsigned number, float u, float v) const {
+        if (!holes) return true;
+        if (uvs.empty()) return holes->blocks({0, 0});
+        const std::uint32_t* corners = &indices[3 * std::size_t(number)];
+        return holes->blocks((1 - u - v) * uvs[corners[0]] + u * uvs[corners[1]] + v * uvs[corners[2]]);
+    }
+
+    /// Called by Embree where something seems to block rays.
     static void filter(const RTCFilterFunctionNArguments* hits) {
-        const auto& mask = *static_cast<const Mask*>(hits->geometryUserPtr);
-        for (unsigned i = 0; i < hits->N; ++i) {
+        const auto& surface = *static_cast<const Surface*>(hits->geometryUserPtr);
+        const float* const ends = reinterpret_cast<const FanContext*>(hits->context)->ends;
+        const unsigned count = hits->N;
+        for (unsigned i = 0; i < count; ++i) {
             if (hits->valid[i] == 0) continue;
-            const unsigned triangle = RTCHitN_primID(hits->hit, hits->N, i);
-            const float u = RTCHitN_u(hits->hit, hits->N, i), v = RTCHitN_v(hits->hit, hits->N, i);
-            if (!mask.blocksAt(triangle, u, v)) hits->valid[i] = 0;
+            RTCRayN* const rays = hits->ray;
+            const glm::dvec3 origin(RTCRayN_org_x(rays, count, i), RTCRayN_org_y(rays, count, i),
+                                    RTCRayN_org_z(rays, count, i));
+            const glm::dvec3 direction(RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i),
+                                       RTCRayN_dir_z(rays, count, i));
+            const unsigned number = RTCHitN_primID(hits->hit, count, i);
+            const double end = ends[RTCRayN_id(rays, count, i)];
+            const bool blocks =
+                surface.triangle(number).isCrossedWithin(origin, direction, end) &&
+                surface.isSolidAt(number, RTCHitN_u(hits->hit, count, i), RTCHitN_v(hits->hit, count, i));
+            if (!blocks) hits->valid[i] = 0;
         }
+    }
+
+    /// What a filter is told of the fan that is traced: Embree hands it on.
+    struct FanContext {
+        RayContext embree;  // first: Embree's pointer to it is one to this
+        const float* ends;           // of the rays, by their ids
+    };
+};
+
+/// Surfaces with a tree over them; the number of a geometry is the surface's.
+struct OcclusionScene::Surfaces {
+    std::vector<std::unique_ptr<Surface>> surfaces;
+    EmbreeScene scene;
+
+    void make(RTCDevice device) {
+        scene.reset(rtcNewScene(device));
+        // Robust: rays between two triangles that share an edge hit one of them.
+        rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_HIGH);
+        for (const std::unique_ptr<Surface>& surface : surfaces) attach(device, *surface);
+        rtcCommitScene(scene.get());
+    }
+
+    void attach(RTCDevice device, Surface& surface) {
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                   surface.positions.data(), 0, sizeof(glm::vec3),
+                                   surface.positions.size() - 1);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                   surface.indices.data(), 0, 3 * sizeof(std::uint32_t),
+                                   surface.indices.size() / 3);
+        rtcSetGeometryUserData(geometry, &surface);
+        rtcSetGeometryOccludedFilterFunction(geometry, Surface::filter);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene.get(), geometry);
+        rtcReleaseGeometry(geometry);
+    }
+
+    /// Narrows `nearest` to what is nearer here.
+    void find(NearestPlane& nearest) const {
+        struct Search {
+            const Surfaces& surfaces;
+            NearestPlane& nearest;
+        } search{*this, nearest};
+        const auto look = [](RTCPointQueryFunctionArguments* found) {
+            auto& [here, best] = *static_cast<Search*>(found->userPtr);
+            if (!best.take(here.surfaces[found->geomID]->triangle(found->primID))) return false;
+            found->query->radius = float(best.distance());
+            return true;
+        };
+        RTCPointQueryContext context;
+        rtcInitPointQueryContext(&context);
+        const glm::vec3 place(nearest.place());
+        RTCPointQuery query{};
+        query.x = place.x, query.y = place.y, query.z = place.z;
+        query.radius = float(nearest.distance());
+        rtcPointQuery(scene.get(), &query, &context, look, &search);
     }
 };
 
 struct OcclusionScene::State {
     Device device{rtcNewDevice(nullptr)};
-    EmbreeScene scene;
-    std::vector<std::unique_ptr<Mask>> masks;  // pointed to by the scene's geometries
-
-    void attach(const TracedCaster& caster) {
-        RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-        const std::size_t triangles = caster.indices.size() / 3;
-        auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                                     RTC_FORMAT_FLOAT3, sizeof(float) * 3,
-                                                                     caster.positions.size()));
-        auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(std::uint32_t) * 3, triangles));
-        if (vertices && indices) {
-            const glm::dmat4 worldFromMesh(caster.worldFromMesh);
-            for (const glm::vec3& position : caster.positions) {
-                const glm::dvec3 posWorld(worldFromMesh * glm::dvec4(position, 1));
-                for (int axis = 0; axis < 3; ++axis) *vertices++ = float(posWorld[axis]);
-            }
-            std::ranges::copy(caster.indices, indices);
-            if (caster.alphaMask) {
-                masks.push_back(std::make_unique<Mask>(Mask{AlphaTexture(*caster.alphaMask),
-                                                            {caster.uvs.begin(), caster.uvs.end()},
-                                                            {caster.indices.begin(), caster.indices.end()}}));
-                rtcSetGeometryUserData(geometry, masks.back().get());
-                rtcSetGeometryOccludedFilterFunction(geometry, Mask::filter);
-            }
-            rtcCommitGeometry(geometry);
-            rtcAttachGeometry(scene.get(), geometry);
-        }
-        rtcReleaseGeometry(geometry);
-    }
+    Surfaces blocking, other;
 
     void check() const {
         if (device && rtcGetDeviceError(device.get()) == RTC_ERROR_NONE) return;
@@ -95,36 +154,45 @@ struct OcclusionScene::State {
 
 OcclusionScene::OcclusionScene(std::span<const TracedCaster> casters) : state_(std::make_unique<State>()) {
     state_->check();
-    state_->scene.reset(rtcNewScene(state_->device.get()));
-    // Robust: rays between two triangles that share an edge hit one of them.
-    rtcSetSceneFlags(state_->scene.get(), RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(state_->scene.get(), RTC_BUILD_QUALITY_HIGH);
     for (const TracedCaster& caster : casters) {
-        if (!caster.indices.empty()) state_->attach(caster);
+        if (caster.indices.empty()) continue;
+        Surfaces& group = caster.blocks ? state_->blocking : state_->other;
+        group.surfaces.push_back(std::make_unique<Surface>(caster));
     }
-    rtcCommitScene(state_->scene.get());
+    for (Surfaces* group : {&state_->blocking, &state_->other}) group->make(state_->device.get());
     state_->check();
 }
 
 OcclusionScene::~OcclusionScene() = default;
 
+glm::dvec3 OcclusionScene::onSurface(const glm::dvec3& posWorld, const glm::dvec3& normalWorld,
+                                     double reach_m) const {
+    NearestPlane nearest(posWorld, normalWorld, reach_m);
+    state_->blocking.find(nearest);
+    state_->other.find(nearest);
+    return nearest.point();
+}
+
 void OcclusionScene::trace(const glm::vec3& origin, const RayFan& rays,
                            std::span<std::uint8_t> blocked) const {
+    Surface::FanContext context{};
     RTCRay16 packet{};
     std::ranges::fill(packet.org_x, origin.x);
     std::ranges::fill(packet.org_y, origin.y);
     std::ranges::fill(packet.org_z, origin.z);
     std::ranges::fill(packet.mask, ~0u);
+    std::iota(std::begin(packet.id), std::end(packet.id), 0u);
     alignas(64) int active[packetSize];
 
     for (std::size_t first = 0; first < rays.size(); first += packetSize) {
         const std::size_t count = std::min<std::size_t>(packetSize, rays.size() - first);
+        context.ends = &rays.end[first];
         std::copy_n(&rays.directionX[first], count, packet.dir_x);
         std::copy_n(&rays.directionY[first], count, packet.dir_y);
         std::copy_n(&rays.directionZ[first], count, packet.dir_z);
         std::copy_n(&rays.end[first], count, packet.tfar);
         for (std::size_t i = 0; i < packetSize; ++i) active[i] = i < count ? -1 : 0;
-        occludeCoherent(active, state_->scene.get(), packet);
+        occludeCoherent(active, state_->blocking.scene.get(), context.embree, packet);
         for (std::size_t i = 0; i < count; ++i) {
             blocked[first + i] = packet.tfar[i] == -std::numeric_limits<float>::infinity();
         }

@@ -35,12 +35,17 @@ class OcclusionScene {
     OcclusionScene& operator=(const OcclusionScene&) = delete;
     ~OcclusionScene();
 
+    /// `posWorld` moved onto the plane of the nearest triangle that lies within `reach_m` of it and across
+    /// `normalWorld` (unit); where there is none, `posWorld`. Casters that block nothing count, too.
+    glm::dvec3 onSurface(const glm::dvec3& posWorld, const glm::dvec3& normalWorld, double reach_m) const;
+
     /// Sets `blocked[i]` to 1 if ray i is blocked, else to 0. Faster when rays that follow each other are
     /// close.
     void trace(const glm::vec3& origin, const RayFan& rays, std::span<std::uint8_t> blocked) const;
 
   private:
-    struct Mask;
+    struct Surface;
+    struct Surfaces;
     struct State;
     std::unique_ptr<State> state_;
 };

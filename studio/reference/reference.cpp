@@ -51,6 +51,7 @@ ContentHash hashOf(std::span<const TracedCaster> casters) {
         hasher.addArray(caster.positions);
         hasher.addArray(caster.indices);
         hasher.addArray(std::span(&caster.worldFromMesh, 1));
+        hasher.add(std::uint32_t(caster.blocks));
         hasher.add(std::uint32_t(caster.alphaMask.has_value()));
         if (!caster.alphaMask) continue;
         const TracedAlphaMask& mask = *caster.alphaMask;
@@ -66,14 +67,21 @@ ContentHash hashOf(std::span<const TracedCaster> casters) {
     return hasher.hash();
 }
 
-/// How far off its surface a ray must start so as not to hit it again. A position that was read back from a
-/// depth buffer and multiplied by an inverse matrix carries some ten roundings of 2^-24 each, relative to its
-/// distance from the eye and to its coordinates; Embree's own triangle test adds a few more. 4e-6 is about
-/// six times that sum, and at ten metres it is less than a tenth of a millimetre.
-glm::vec3 rayOrigin(const glm::vec3& posWorld, const glm::vec3& normalWorld, const glm::vec3& eyeWorld) {
+/// What the rounding of a receiver's position grows with.
+float roundingScale(const glm::vec3& posWorld, const glm::vec3& eyeWorld) {
     const float largest = std::max({std::abs(posWorld.x), std::abs(posWorld.y), std::abs(posWorld.z)});
-    return posWorld + 4e-6f * (largest + glm::distance(posWorld, eyeWorld)) * normalWorld;
+    return largest + glm::distance(posWorld, eyeWorld);
 }
+
+/// How far from a position, in multiples of its scale, its surface may lie. The depth of a triangle that
+/// reaches close to the eye has the absolute error of its nearest point; of 24 bits, or near 1, that is 2^-24
+/// times the square of the distance over that of the near plane.
+constexpr float surfaceReach = 1e-3f;
+
+/// How far off its surface a ray must start so as not to hit it again, in multiples of its position's scale.
+/// A position that was multiplied by an inverse matrix carries some ten roundings of 2^-24; 4e-6 is about six
+/// times that sum, and at ten metres it is less than a tenth of a millimetre.
+constexpr float rayStart = 4e-6f;
 
 /// Geometry in the light's own plane, such as the frame of a lamp, shall not block it: rays end short of it
 /// by 1e-5.
@@ -103,9 +111,11 @@ class PixelTracer {
                 std::uint32_t seed)
         : scene_(scene), light_(light), points_(points), seed_(seed) {}
 
-    PixelResult trace(std::uint32_t pixel, const glm::vec3& posWorld, const glm::vec3& normalWorld,
+    PixelResult trace(std::uint32_t pixel, const glm::vec3& posFromDepth, const glm::vec3& normalWorld,
                       const glm::vec3& eyeWorld) {
-        const glm::vec3 origin = rayOrigin(posWorld, normalWorld, eyeWorld);
+        const float scale = roundingScale(posFromDepth, eyeWorld);
+        const glm::vec3 posWorld(scene_.onSurface(posFromDepth, normalWorld, surfaceReach * scale));
+        const glm::vec3 origin = posWorld + rayStart * scale * normalWorld;
         chooseRays(pixel, posWorld, normalWorld, origin);
         sortRays();
         blocked_.resize(fan_.size());

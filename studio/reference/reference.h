@@ -21,7 +21,7 @@ namespace penumbra::studio {
 /// One surface point a pixel, rows from the top. All vectors hold width_px * height_px elements.
 struct ReceiverImage {
     int width_px = 0, height_px = 0;
-    std::vector<glm::vec3> posWorld;
+    std::vector<glm::vec3> posWorld;     ///< as a depth buffer has them: near their surface
     std::vector<glm::vec3> normalWorld;  ///< unit, of the triangle (not interpolated), facing the camera
     std::vector<std::uint8_t> valid;     ///< 0: no surface, or one that receives no shadow; V is 1 there
     /// Where the positions were seen from: their rounding errors grow with the distance from here.
@@ -35,7 +35,7 @@ struct RadianceTexture {
     Image rgb;
 };
 
-/// A mesh that blocks light, with both sides of every triangle. The spans are read by ReferenceScene's
+/// A surface that blocks light, with both sides of every triangle. The spans are read by ReferenceScene's
 /// constructor only. Triangles with a vertex that is not finite block nothing.
 struct TracedCaster {
     std::span<const glm::vec3> positions;    ///< mesh space, metres
@@ -44,6 +44,7 @@ struct TracedCaster {
         uvs{};  ///< one a position, or empty (then (0, 0)); read with an alpha mask only
     glm::mat4 worldFromMesh{1};
     std::optional<TracedAlphaMask> alphaMask{};
+    bool blocks = true;  ///< false: blocks no light, but receivers may lie on it
 };
 
 struct ReferenceOptions {
@@ -87,6 +88,10 @@ class ReferenceScene {
     /// - distant: the part of its cone above the horizon
     /// - size zero: the centre
     /// Where nothing is left of the whole, V is 0. Where the position or normal is not finite, V is 1.
+    ///
+    /// Receivers are first moved onto the surface that they show: the plane of the nearest triangle across
+    /// their normal, if one lies within 1e-3 of (their distance from the eye + their largest coordinate). A
+    /// depth buffer's position of a triangle of 400 m is off by more than what a contact shadow can bear.
     ///
     /// A blocker exactly in the receiver's plane or exactly in the light's does not block: rays start off the
     /// surface by 4e-6 of (its distance from the eye + its largest coordinate) and end 1e-5 of their length

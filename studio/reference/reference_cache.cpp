@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raised whenever the same inputs would give other pixels, or the files look different.
-constexpr std::uint32_t formatVersion = 2;
+constexpr std::uint32_t formatVersion = 3;   // also of how traces are made
 constexpr std::uint32_t magic = 0x52464E50;  // "PNFR" in a little-endian file
 constexpr std::string_view extension = ".visibility";
 

@@ -79,7 +79,6 @@ ReceiverImage readReceivers(const View& view) {
 
 CasterCopies::CasterCopies(std::span<const Caster> casters) {
     for (const Caster& caster : casters) {
-        if (!caster.casts) continue;
         const auto positions = asGlm(caster.mesh->positions());
         const auto indices = caster.mesh->indices();
         const auto uvs = asGlm(caster.mesh->uvs());
@@ -87,6 +86,7 @@ CasterCopies::CasterCopies(std::span<const Caster> casters) {
         copy.positions.assign(positions.begin(), positions.end());
         copy.indices.assign(indices.begin(), indices.end());
         copy.traced.worldFromMesh = fromPenumbra(caster.worldFromMesh);
+        copy.traced.blocks = caster.casts;
         if (caster.alphaMask.texture == 0) continue;
         copy.uvs.assign(uvs.begin(), uvs.end());
         copy.traced.alphaMask = readMask(caster.alphaMask, copy.maskRgba);

@@ -19,7 +19,7 @@ ReceiverImage readReceivers(const View& view);
 /// another thread may use them.
 class CasterCopies {
   public:
-    /// Copies what casts; reads alpha masks back, which waits for the device.
+    /// Copies what is drawn, whether it casts or not; reads alpha masks back, which waits for the device.
     explicit CasterCopies(std::span<const Caster> casters);
 
     ReferenceScene makeScene() const;

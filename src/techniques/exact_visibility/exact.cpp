@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/matrix_access.hpp>
 #include <limits>
 #include <string>
 
@@ -124,6 +125,9 @@ ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs,
     result.boxMin = glm::vec4(low, isPoint(light));
     result.boxMax = glm::vec4(high, weight_);
     result.eye = glm::vec4(glm::dvec3(worldFromView[3]) - soup_.originWorld(), light.radianceTexture != 0);
+    const glm::dmat4 clipFromWorld = toGlm(inputs.view.clipFromView) * toGlm(inputs.view.viewFromWorld);
+    const glm::dvec4 share = glm::row(clipFromWorld, 3);
+    result.sight = glm::vec4(glm::dvec3(share), share.w + glm::dot(glm::dvec3(share), soup_.originWorld()));
     result.lattice = glm::vec4(lattice[0], lattice[1]);
     result.uvFromLattice = glm::vec4(inverse[0], inverse[1]);
     result.counts = {int(lattices.size()), (inputs.view.width_px + tile_px - 1) / tile_px, tileCapacity_,

@@ -40,6 +40,7 @@ struct ExactLight {
                    // for a point
     vec4 boxMax;   // w: 1 if weighted by irradiance
     vec4 eye;      // scene space; w: 1 if a texture weights the samples
+    vec4 sight;    // of the point (x, y, z, 1), its dot product is clip-space w: the distance along the view
     vec4 lattice;  // lattice from uv, columns: a 2 x 2 matrix
     vec4 uvFromLattice;                // its inverse
     ivec4 counts;                      // x: lattices; y: tiles in a row; z: candidates a tile; w: nodes
@@ -48,7 +49,7 @@ struct ExactLight {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ExactLight) == 16 * (10 + EXACT_MAX_LATTICES + EXACT_MAX_LATTICES * EXACT_MAX_ROWS / 4));
+static_assert(sizeof(ExactLight) == 16 * (11 + EXACT_MAX_LATTICES + EXACT_MAX_LATTICES * EXACT_MAX_ROWS / 4));
 }  // namespace penumbra
 #endif
 #endif

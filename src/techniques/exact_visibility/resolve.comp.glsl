@@ -11,6 +11,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/exact_visibility/light.glsl"
 #include "src/techniques/exact_visibility/tree.glsl"
 #include "src/techniques/exact_visibility/tiles.glsl"
+#include "src/techniques/exact_visibility/underfoot.glsl"
 #include "src/techniques/exact_visibility/coverage.glsl"
 #include "src/techniques/exact_visibility/masks.glsl"
 #include "src/techniques/exact_visibility/weights.glsl"
@@ -319,6 +320,7 @@ void main() {
     Receiver receiver;
     bool receives = loadReceiver(min(pixel, view.size_px.xy - 1), receiver) && inside;
     vec3 apex = apexOf(receiver);
+    Footing footing = footingOf(min(pixel, view.size_px - 1), receiver);
     SeenLight seen = seeLight(apex);
     vec3 toSurface = isFlat() ? receiver.posLight - apex : vec3(0.0);
     int patches = receives ? seen.patches : 0;
@@ -348,6 +350,7 @@ void main() {
                 ++progress.next;
                 ++work;
             }
+            counts = counts && !isUnderfoot(footing, receiver.normalLight, apex, blocker.a, blocker.b, blocker.c);
             project(blocker, offset);
             hide(counts);
             isDark = isDark || isAllHidden();
@@ -373,6 +376,7 @@ void main() {
                 counts = isBlocker && !isDark && mayHide(blocker, receiver.normalLight);
                 ++work;
             }
+            counts = counts && !isUnderfoot(footing, receiver.normalLight, apex, blocker.a, blocker.b, blocker.c);
             project(blocker, offset);
             bool plain = isPlain(blocker, seen, leaf);
             hide(counts && plain);
