@@ -8,6 +8,9 @@ layout(local_size_x = 32) in;
 #include "src/techniques/exact_visibility/tree.glsl"
 #include "src/techniques/exact_visibility/tiles.glsl"
 
+layout(std430) writeonly buffer Candidates { uint candidates[]; };  // light.tileCapacity a tile
+layout(std430) writeonly buffer TileLists { TileList tileLists[]; };
+
 struct Bounds {
     vec3 low, high;
     vec3 normal;        // of one of the receivers
@@ -19,12 +22,12 @@ struct Bounds {
 bool canSeeLight(Receiver receiver, vec3 apex) {
     SeenLight seen = seeLight(apex);
     if (seen.patches == 0) return false;
-    if (shapeOfLight() == EXACT_DISTANT) {
+    if (light.emitter.shape == shapeDistant) {
         // The nearest the cone comes to the normal.
-        float sine = sqrt(max(1.0 - light.axisY.w * light.axisY.w, 0.0));
-        return dot(receiver.normalLight, light.axisZ.xyz) > -sine - 1e-5 || light.axisY.w < 0.0;
+        float sine = sqrt(max(1.0 - light.coneCosine * light.coneCosine, 0.0));
+        return dot(receiver.normalLight, light.axisZ) > -sine - 1e-5 || light.coneCosine < 0.0;
     }
-    vec3 farthest = mix(light.boxMin.xyz, light.boxMax.xyz, greaterThan(receiver.normalLight, vec3(0.0)));
+    vec3 farthest = mix(light.boxMin, light.boxMax, greaterThan(receiver.normalLight, vec3(0.0)));
     return dot(receiver.normalLight, farthest - receiver.posLight) > 0.0;
 }
 
@@ -33,7 +36,7 @@ Bounds boundsOf(ivec2 tile) {
     for (int i = 0; i < 64; ++i) {
         ivec2 pixel = 8 * tile + ivec2(i & 7, i >> 3);
         Receiver receiver;
-        if (any(greaterThanEqual(pixel, view.size_px.xy)) || !loadReceiver(pixel, receiver)) continue;
+        if (any(greaterThanEqual(pixel, view.size_px)) || !loadReceiver(pixel, receiver)) continue;
         vec3 apex = apexOf(receiver);
         if (!canSeeLight(receiver, apex)) continue;
         if (bounds.count == 0) bounds.normal = receiver.normalLight;
@@ -57,27 +60,27 @@ bool mayBlockTile(Shaft shaft, Bounds bounds, vec3 boxMin, vec3 boxMax) {
 
 // Whether a box may reach the light, so that it depends on the sample what blocks.
 bool mayReachLight(Bounds bounds, vec3 boxMin, vec3 boxMax) {
-    vec3 middle = 0.5 * (boxMin + boxMax) - light.center.xyz, extent = 0.5 * (boxMax - boxMin);
-    if (shapeOfLight() == EXACT_DISTANT) return false;
-    vec3 tileMiddle = 0.5 * (bounds.low + bounds.high) - light.center.xyz;
+    vec3 middle = 0.5 * (boxMin + boxMax) - light.center, extent = 0.5 * (boxMax - boxMin);
+    if (light.emitter.shape == shapeDistant) return false;
+    vec3 tileMiddle = 0.5 * (bounds.low + bounds.high) - light.center;
     vec3 tileExtent = 0.5 * (bounds.high - bounds.low);
     float reach = length(tileMiddle) + length(tileExtent);
     if (isFlat()) {
-        float height = abs(dot(light.axisZ.xyz, middle)) - dot(abs(light.axisZ.xyz), extent);
+        float height = abs(dot(light.axisZ, middle)) - dot(abs(light.axisZ), extent);
         return height <= 2e-5 * reach;
     }
     // The sphere's near pole, for receivers whose direction towards the centre differs a little from the tile's.
     float nearest = length(tileMiddle) - length(tileExtent);
-    if (nearest <= light.axisX.w) return true;
+    if (nearest <= light.emitter.halfSize.x) return true;
     vec3 axis = -normalize(tileMiddle);
     float deviation = 1.5 * length(tileExtent) / nearest;
     float before = -dot(axis, middle) - dot(abs(axis), extent) - deviation * (length(middle) + length(extent));
-    return before <= light.axisX.w + 2e-5 * reach;
+    return before <= light.emitter.halfSize.x + 2e-5 * reach;
 }
 
 void main() {
     uint tile = gl_GlobalInvocationID.x;
-    ivec2 tiles = (view.size_px.xy + 7) / 8;
+    ivec2 tiles = (view.size_px + 7) / 8;
     if (tile >= uint(tiles.x * tiles.y)) return;
     Bounds bounds = boundsOf(ivec2(int(tile) % tiles.x, int(tile) / tiles.x));
 
@@ -85,22 +88,22 @@ void main() {
                         max(abs(bounds.low.z), abs(bounds.high.z)));
     bounds.low -= pad;
     bounds.high += pad;
-    bool isDistant = shapeOfLight() == EXACT_DISTANT;
+    bool isDistant = light.emitter.shape == shapeDistant;
     Shaft shaft;
     shaft.fromMin = bounds.low;
     shaft.fromMax = bounds.high;
-    shaft.inverseLower = inverseSlope(isDistant ? light.boxMin.xyz : light.boxMin.xyz - bounds.low);
-    shaft.inverseUpper = inverseSlope(isDistant ? light.boxMax.xyz : light.boxMax.xyz - bounds.high);
+    shaft.inverseLower = inverseSlope(isDistant ? light.boxMin : light.boxMin - bounds.low);
+    shaft.inverseUpper = inverseSlope(isDistant ? light.boxMax : light.boxMax - bounds.high);
     shaft.end = isDistant ? 3e37 : 1.0;
 
     // Plain triangles from the front of the tile's part of the lists, those that take a test a sample from its back.
-    uint capacity = uint(light.counts.z);
+    uint capacity = uint(light.tileCapacity);
     uint first = tile * capacity;
     uint plain = 0u, special = 0u;
-    Walk walk = Walk(bounds.count > 0 && light.counts.w > 0 ? 0u : EXACT_END, EXACT_END);
+    Walk walk = Walk(bounds.count > 0 && light.nodeCount > 0 ? 0u : EXACT_END, EXACT_END);
     // Whoever does not get to the end here leaves the rest to the receivers.
     const int longestWalk = 40000;
-    for (int step_ = 0; step_ < min(light.counts.w, longestWalk) && walk.node != EXACT_END && plain + special < capacity; ++step_) {
+    for (int step_ = 0; step_ < min(light.nodeCount, longestWalk) && walk.node != EXACT_END && plain + special < capacity; ++step_) {
         TreeNode node = loadNode(walk.node);
         bool isHit = mayBlockTile(shaft, bounds, node.boxMin, node.boxMax);
         if (isHit && isTriangle(node)) {
@@ -112,7 +115,7 @@ void main() {
         }
         walk = advance(walk, node, isHit);
     }
-    tileLists[tile] = uvec4(plain, special, walk.node, walk.returnTo);
+    tileLists[tile] = TileList(plain, special, walk.node, walk.returnTo);
 
     if (plain + special > 0u) {
         atomicAdd(triangleSum, plain + special);

@@ -5,15 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <string>
 
 #include "src/techniques/common/glm_types.h"
 #include "src/techniques/exact_visibility/exact_io.h"
 
 namespace penumbra {
 namespace {
-
-constexpr std::size_t texel_bytes = sizeof(glm::uvec4);
 
 template <typename T>
 bool sameBits(const std::vector<T>& a, std::span<const T> b) {
@@ -52,30 +49,6 @@ glm::dvec3 chooseOrigin(std::span<const Caster> casters) {
 }
 
 }  // namespace
-
-bool TexelBuffer::reserve(std::size_t texels) {
-    if (view_.name() != 0 && texels * texel_bytes <= buffer_.size_bytes()) return false;
-    GLint64 limit = 0;
-    glGetInteger64v(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
-    if (GLint64(texels) > limit) {
-        throw Error(Error::Kind::badArgument,
-                    std::string(label_) + ": the casters have more triangles than fit into a " +
-                        "buffer texture of this device (" + std::to_string(limit) + " texels)");
-    }
-    // Freed first, so that the two need not fit together.
-    view_ = {};
-    buffer_ = {};
-    buffer_ = gl::Buffer(std::max<std::size_t>(texels, 1) * texel_bytes, label_);
-    GLuint name = 0;
-    glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
-    view_ = gl::Handle<gl::deleteTexture>(name);
-    glTextureBuffer(name, GL_RGBA32UI, buffer_.name());
-    return true;
-}
-
-void TexelBuffer::write(std::span<const glm::uvec4> texels, std::size_t first) {
-    if (!texels.empty()) buffer_.write(std::as_bytes(texels), first * texel_bytes);
-}
 
 CasterSoup::CasterSoup()
     : nodes_("exact/nodes"), triangles_("exact/triangles"), masked_("exact/texture coordinates") {}
@@ -229,10 +202,9 @@ void CasterSoup::sendTop() {
     nodes_.write(texels, 0);
 }
 
-void CasterSoup::bind(unsigned first) const {
-    nodes_.bind(first);
-    triangles_.bind(first + 1);
-    masked_.bind(first + 2);
+void CasterSoup::bindTo(gl::Pass& pass) const {
+    pass.bind("treeNodes", nodes_.ref()).bind("triangles", triangles_.ref());
+    if (pass.has("maskedTriangles")) pass.bind("maskedTriangles", masked_.ref());
 }
 
 }  // namespace penumbra

@@ -8,28 +8,11 @@
 #include <vector>
 
 #include "penumbra/technique.h"
-#include "src/gl/buffer.h"
-#include "src/gl/texture.h"
+#include "src/gl/pass.h"
+#include "src/gl/texel_buffer.h"
 #include "src/techniques/exact_visibility/triangle_tree.h"
 
 namespace penumbra {
-
-/// A buffer that shaders read with texelFetch, four words at a time; floats travel as their bits, among
-/// integers. Its size only grows.
-class TexelBuffer {
-  public:
-    explicit TexelBuffer(std::string_view label) : label_(label) {}
-    /// Makes room for so many; what was there is lost where it has to grow, which the result says.
-    bool reserve(std::size_t texels);
-    void write(std::span<const glm::uvec4> texels, std::size_t first);
-    void bind(unsigned unit) const { glBindTextureUnit(unit, view_.name()); }
-    std::size_t size_bytes() const { return buffer_.size_bytes(); }
-
-  private:
-    std::string_view label_;
-    gl::Buffer buffer_;
-    gl::Handle<gl::deleteTexture> view_;
-};
 
 /// Keeps, from frame to frame, what has not changed: the shape of each mesh's tree while its triangles are
 /// the same, boxes and corners while it does not move. Where casters moved or were deformed, only theirs are
@@ -45,9 +28,8 @@ class CasterSoup {
     /// World space moved, not turned, so that coordinates are small: how shaders see everything.
     const glm::dvec3& originWorld() const { return originWorld_; }
 
-    /// Nodes, triangles and masked triangles' texture coordinates, to units `first`, `first + 1`, `first +
-    /// 2`.
-    void bind(unsigned first) const;
+    /// Binds nodes, triangles and masked triangles' texture coordinates.
+    void bindTo(gl::Pass& pass) const;
 
     std::size_t nodeCount() const { return nodeCount_; }
     std::size_t triangleCount() const { return triangleCount_; }
@@ -85,7 +67,7 @@ class CasterSoup {
     std::vector<Entry> entries_;
     std::vector<AlphaMask> masks_;
     glm::dvec3 originWorld_{0};
-    TexelBuffer nodes_, triangles_, masked_;
+    gl::TexelBuffer nodes_, triangles_, masked_;
     std::size_t nodeCount_ = 0;
     std::size_t triangleCount_ = 0;
     std::size_t maskedCount_ = 0;

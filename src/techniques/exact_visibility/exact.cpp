@@ -8,7 +8,10 @@
 #include <limits>
 #include <string>
 
+#include "penumbra/light_plane.h"
+#include "src/gl/pass.h"
 #include "src/techniques/common/glm_types.h"
+#include "src/techniques/common/light_constants.h"
 
 namespace penumbra {
 namespace {
@@ -16,7 +19,6 @@ namespace {
 constexpr const char* candidatesShader = "src/techniques/exact_visibility/candidates.comp.glsl";
 constexpr const char* resolveShader = "src/techniques/exact_visibility/resolve.comp.glsl";
 constexpr int tile_px = 8;
-constexpr unsigned firstMaskUnit = 8;
 
 // llvmpipe ends all loops of a shader, without a word, once an invocation has gone through 65,535 iterations;
 // the last triangle before a pause may take some hundred more than this. Elsewhere it is watchdogs that want
@@ -24,21 +26,10 @@ constexpr unsigned firstMaskUnit = 8;
 constexpr int softwareRoundWork = 40000;
 constexpr int hardwareRoundWork = 1000000;
 
-bool isPoint(const AreaLight& light) {
-    switch (light.shape) {
-        case LightShape::rect:
-            return light.width_m == 0 && light.height_m == 0;
-        case LightShape::distant:
-            return light.angle_rad == 0;
-        default:
-            return light.radius_m == 0;
-    }
-}
-
-void bindMaskGroup(std::span<const unsigned> textures, int group) {
+void bindMaskGroup(gl::Pass& pass, std::span<const unsigned> textures, int group) {
     for (std::size_t i = 0; i < EXACT_GROUP_TEXTURES; ++i) {
         const std::size_t which = std::size_t(group) * EXACT_GROUP_TEXTURES + i;
-        glBindTextureUnit(firstMaskUnit + unsigned(i), which < textures.size() ? textures[which] : 0);
+        pass.bind("alphaTextures", i, {.name = which < textures.size() ? textures[which] : 0});
     }
 }
 
@@ -54,7 +45,7 @@ ExactVisibility::ExactVisibility(Device& device)
       counters_(sizeof(Counters), "exact/counters"),
       weights_(std::size_t(EXACT_MAX_LATTICES * EXACT_MAX_ROWS * EXACT_MAX_ROWS) * sizeof(glm::vec4),
                "exact/weights") {
-    glClearNamedBufferData(counters_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+    counters_.clear();
 }
 
 void ExactVisibility::describe(ParameterVisitor& visitor) {
@@ -77,7 +68,7 @@ void ExactVisibility::describe(ParameterVisitor& visitor) {
 
 const std::vector<LightLattice>& ExactVisibility::latticesFor(const AreaLight& light) {
     const bool disk = light.shape != LightShape::rect;
-    const std::pair key(isPoint(light) ? 1 : samples_, disk);
+    const std::pair key(hasSize(light) ? samples_ : 1, disk);
     const auto found = lattices_.find(key);
     if (found != lattices_.end()) return found->second;
     return lattices_[key] = makeLightLattices(key.first, disk);
@@ -90,10 +81,8 @@ ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs,
     const glm::dmat3 axes(worldFromLight);
     const bool isDistant = light.shape == LightShape::distant, isSphere = light.shape == LightShape::sphere;
     const double halfAngle = 0.5 * double(light.angle_rad);
-    glm::dvec3 center = isDistant ? glm::dvec3(0) : glm::dvec3(worldFromLight[3]) - soup_.originWorld();
-    double sizeX = light.radius_m, sizeY = light.radius_m;
-    if (light.shape == LightShape::rect)
-        sizeX = 0.5 * double(light.width_m), sizeY = 0.5 * double(light.height_m);
+    const glm::dvec3 center = isDistant ? glm::dvec3(0) : glm::dvec3(worldFromLight[3]) - soup_.originWorld();
+    const glm::dvec2 size = lightExtent(light);
     glm::dvec3 low, high;
     for (int i = 0; i < 3; ++i) {
         if (isDistant) {
@@ -103,35 +92,40 @@ ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs,
             high[i] = std::cos(std::max(angle - halfAngle, 0.0)) + 1e-6;
         } else {
             const double reach =
-                isSphere ? light.radius_m : std::abs(axes[0][i]) * sizeX + std::abs(axes[1][i]) * sizeY;
+                isSphere ? light.radius_m : std::abs(axes[0][i]) * size.x + std::abs(axes[1][i]) * size.y;
             const double pad = 1e-6 * (std::abs(center[i]) + reach);
             low[i] = center[i] - reach - pad;
             high[i] = center[i] + reach + pad;
         }
     }
-    if (isDistant) sizeX = std::tan(std::min(halfAngle, 1.2)), sizeY = std::cos(halfAngle);
 
     const glm::dmat4 worldFromView = glm::inverse(toGlm(inputs.view.viewFromWorld));
-    const glm::dmat2 lattice = lattices.front().latticeFromUv, inverse = glm::inverse(lattice);
-    ExactLight result{};
-    const int shape = isDistant                         ? EXACT_DISTANT
-                      : isSphere                        ? EXACT_SPHERE
-                      : light.shape == LightShape::disk ? EXACT_DISK
-                                                        : EXACT_RECT;
-    result.center = glm::vec4(center, shape);
-    result.axisX = glm::vec4(axes[0], sizeX);
-    result.axisY = glm::vec4(axes[1], sizeY);
-    result.axisZ = glm::vec4(axes[2], light.twoSided);
-    result.boxMin = glm::vec4(low, isPoint(light));
-    result.boxMax = glm::vec4(high, weight_);
-    result.eye = glm::vec4(glm::dvec3(worldFromView[3]) - soup_.originWorld(), light.radianceTexture != 0);
     const glm::dmat4 clipFromWorld = toGlm(inputs.view.clipFromView) * toGlm(inputs.view.viewFromWorld);
     const glm::dvec4 share = glm::row(clipFromWorld, 3);
-    result.sight = glm::vec4(glm::dvec3(share), share.w + glm::dot(glm::dvec3(share), soup_.originWorld()));
-    result.lattice = glm::vec4(lattice[0], lattice[1]);
-    result.uvFromLattice = glm::vec4(inverse[0], inverse[1]);
-    result.counts = {int(lattices.size()), (inputs.view.width_px + tile_px - 1) / tile_px, tileCapacity_,
-                     int(soup_.nodeCount())};
+    const glm::dmat2 lattice = lattices.front().latticeFromUv, inverse = glm::inverse(lattice);
+    ExactLight result{
+        .emitter = lightConstants(light),
+        .center = center,
+        .coneCosine = float(std::cos(halfAngle)),
+        .axisX = axes[0],
+        .isWeightedByIrradiance = bool32(weight_),
+        .axisY = axes[1],
+        .latticeCount = int(lattices.size()),
+        .axisZ = axes[2],
+        .tilesAcross = (inputs.view.width_px + tile_px - 1) / tile_px,
+        .boxMin = low,
+        .tileCapacity = tileCapacity_,
+        .boxMax = high,
+        .nodeCount = int(soup_.nodeCount()),
+        .eye = glm::dvec3(worldFromView[3]) - soup_.originWorld(),
+        .planeTolerance = lightPlaneTolerance,
+        .sight = glm::dvec3(share),
+        .sightOffset = float(share.w + glm::dot(glm::dvec3(share), soup_.originWorld())),
+        .latticeFromU = lattice[0],
+        .latticeFromV = lattice[1],
+        .uvFromI = inverse[0],
+        .uvFromJ = inverse[1],
+    };
     for (std::size_t i = 0; i < lattices.size(); ++i) {
         result.offsets[i] = glm::vec4(lattices[i].offset, 0, 0);
         for (std::size_t j = 0; j < lattices[i].validRows.size(); ++j) {
@@ -156,31 +150,18 @@ int ExactVisibility::roundsFor(int rows, LightShape shape) const {
 }
 
 void ExactVisibility::allocate(int width_px, int height_px, int rows, int rounds) {
-    if (errorBound_.name() == 0 || errorBound_.width_px() != width_px ||
-        errorBound_.height_px() != height_px) {
-        errorBound_ = {};
-        errorBound_ = gl::Texture({.width_px = width_px,
-                                   .height_px = height_px,
-                                   .format = gl::Format::r16f,
-                                   .label = "exact/error bound"});
-    }
-    tileCount_ = ((width_px + tile_px - 1) / tile_px) * ((height_px + tile_px - 1) / tile_px);
-    const std::size_t tiles_bytes = std::size_t(tileCount_) * sizeof(glm::uvec4);
-    const std::size_t lists_bytes =
-        std::size_t(tileCount_) * std::size_t(tileCapacity_) * sizeof(std::uint32_t);
-    if (tiles_.size_bytes() < tiles_bytes) tiles_ = gl::Buffer(tiles_bytes, "exact/tiles");
-    if (lists_.size_bytes() < lists_bytes) {
-        lists_ = {};
-        lists_ = gl::Buffer(lists_bytes, "exact/candidates");
-    }
-    const std::size_t states_bytes = std::size_t(width_px) * std::size_t(height_px) *
-                                     std::size_t(EXACT_STATE_WORDS + rows) * sizeof(std::uint32_t);
-    if (states_.size_bytes() < states_bytes) {
-        states_ = {};
-        states_ = gl::Buffer(states_bytes, "exact/states");
-    }
-    const std::size_t rounds_bytes = std::size_t(rounds + 1) * 3 * sizeof(std::uint32_t);
-    if (rounds_.size_bytes() < rounds_bytes) rounds_ = gl::Buffer(rounds_bytes, "exact/rounds");
+    errorBound_.fit({.width_px = width_px,
+                     .height_px = height_px,
+                     .format = gl::Format::r16f,
+                     .label = "exact/error bound"});
+    tileCount_ =
+        std::size_t((width_px + tile_px - 1) / tile_px) * std::size_t((height_px + tile_px - 1) / tile_px);
+    tiles_.reserve(tileCount_ * sizeof(TileList), "exact/tiles");
+    lists_.reserve(tileCount_ * std::size_t(tileCapacity_) * sizeof(std::uint32_t), "exact/candidates");
+    states_.reserve(std::size_t(width_px) * std::size_t(height_px) * std::size_t(EXACT_STATE_WORDS + rows) *
+                        sizeof(std::uint32_t),
+                    "exact/states");
+    rounds_.reserve(std::size_t(rounds + 1) * 3 * sizeof(std::uint32_t), "exact/rounds");
 }
 
 /// Writes down what each mask asks of its texture, and which that is; the result has each texture once.
@@ -195,7 +176,6 @@ std::vector<unsigned> ExactVisibility::sendMasks() {
                            which / EXACT_GROUP_TEXTURES);
     }
     masks_.write(masks);
-    masks_.bind(3);
     return textures;
 }
 
@@ -222,52 +202,57 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
         resolve = resolve_.emplace(int(rows), std::move(program)).first;
     }
     light_.write(describeLight(inputs, lattices));
-    light_.bindUniform(1);
     glm::dmat4 sceneFromWorld(1);
     sceneFromWorld[3] = glm::dvec4(-soup_.originWorld(), 1);
-    view_.bind(inputs.view, sceneFromWorld);
-    soup_.bind(3);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, lists_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, tiles_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, counters_.name());
+    view_.fill(inputs.view, sceneFromWorld);
+    counters_.clear();
     {
         const auto pass = timers_.pass("exact/candidates");
-        glClearNamedBufferData(counters_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
-        candidates_.use();
-        glDispatchCompute(GLuint(tileCount_ + 31) / 32, 1, 1);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+        constexpr std::size_t groupTiles = 32;
+        gl::Pass(candidates_)
+            .bind(view_)
+            .bind("LightBlock", light_)
+            .bind(soup_)
+            .bind("Candidates", lists_)
+            .bind("TileLists", tiles_)
+            .bind("Counters", counters_)
+            .dispatch((tileCount_ + groupTiles - 1) / groupTiles);
     }
-    glBindTextureUnit(6, inputs.light.radianceTexture);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, weights_.name());
+    const gl::TextureRef radiance{.name = inputs.light.radianceTexture};
     if (inputs.light.radianceTexture != 0) {
         const auto pass = timers_.pass("exact/weights");
-        weigh_.use();
-        glDispatchCompute(EXACT_MAX_ROWS / 8, EXACT_MAX_ROWS / 8, GLuint(lattices.size()));
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        gl::Pass(weigh_)
+            .bind("LightBlock", light_)
+            .bind("radiance", radiance)
+            .bind("Weights", weights_)
+            .dispatch(EXACT_MAX_ROWS / 8, EXACT_MAX_ROWS / 8, lattices.size());
     }
-    {
-        const auto pass = timers_.pass("exact/resolve");
-        resolve->second.use();
-        bindVisibility(out, 0);
-        errorBound_.bindImage(1, GL_WRITE_ONLY);
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, states_.name());
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, rounds_.name());
-        glClearNamedBufferData(rounds_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
-        glUniform1i(1, roundWork_);
-        glUniform1i(2, turnRounds);
-        glUniform1i(3, groups);
-        bindMaskGroup(maskTextures, 0);
-        glUniform1i(0, 0);
-        gl::dispatchPixels(out.width_px(), out.height_px());
-        for (int round = 1; round < turns * turnRounds; ++round) {
-            if (groups > 1 && round % turnRounds == 0)
-                bindMaskGroup(maskTextures, round / turnRounds % groups);
-            // Without work groups where nobody asked for the round.
-            glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-            glUniform1i(0, round);
-            gl::dispatchIndirect(rounds_, 3 * sizeof(std::uint32_t) * std::size_t(round));
-        }
-        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    const auto timed = timers_.pass("exact/resolve");
+    rounds_.clear();
+    gl::Pass pass(resolve->second);
+    pass.inOrder()
+        .bind(view_)
+        .bind("LightBlock", light_)
+        .bind(soup_)
+        .bind("Candidates", lists_)
+        .bind("TileLists", tiles_)
+        .bind("Counters", counters_)
+        .bind("Masks", masks_)
+        .bind("Weights", weights_)
+        .bind("radiance", radiance)
+        .bind("States", states_)
+        .bind("Rounds", rounds_)
+        .bind("visibility", imageOf(out))
+        .bind("errorBound", errorBound_);
+    bindMaskGroup(pass, maskTextures, 0);
+    ExactRound round{.number = 0, .work = roundWork_, .turnRounds = turnRounds, .groups = groups};
+    pass.constants(round).dispatchPixels(out.width_px(), out.height_px());
+    while (++round.number < turns * turnRounds) {
+        if (groups > 1 && round.number % turnRounds == 0)
+            bindMaskGroup(pass, maskTextures, round.number / turnRounds % groups);
+        // Without work groups where nobody asked for the round.
+        pass.constants(round).dispatchIndirect(rounds_,
+                                               3 * sizeof(std::uint32_t) * std::size_t(round.number));
     }
 }
 

@@ -67,7 +67,7 @@ class ExactVisibility final : public Technique {
     gl::StorageArray<glm::vec4> masks_;
     gl::Buffer tiles_, lists_, counters_, states_, rounds_, weights_;
     gl::Texture errorBound_;
-    int tileCount_ = 0;
+    std::size_t tileCount_ = 0;
     gl::PassTimers timers_;
 };
 

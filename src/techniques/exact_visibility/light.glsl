@@ -2,17 +2,16 @@
 // The light as a receiver sees it.
 #include "src/techniques/exact_visibility/exact_io.h"
 
-layout(std140, binding = 1) uniform LightBlock { ExactLight light; };
+layout(std140) uniform LightBlock { ExactLight light; };
 
-int shapeOfLight() { return int(light.center.w); }
-bool isFlat() { return shapeOfLight() <= EXACT_DISK; }
+bool isFlat() { return light.emitter.shape == shapeRect || light.emitter.shape == shapeDisk; }
 
 // Where rays start: off the surface, so that they do not meet it again. A position from a depth buffer carries some ten
 // roundings of 2^-24 each, relative to its distance from the eye and to its coordinates; 4e-6 is six times their sum.
 vec3 apexOf(Receiver receiver) {
     vec3 size = abs(receiver.posLight);
     float largest = max(size.x, max(size.y, size.z));
-    return receiver.posLight + 4e-6 * (largest + distance(receiver.posLight, light.eye.xyz)) * receiver.normalLight;
+    return receiver.posLight + 4e-6 * (largest + distance(receiver.posLight, light.eye)) * receiver.normalLight;
 }
 
 // A part of the light, seen through a window: the sample (u, v) lies in the direction of center + u across + v along,
@@ -52,7 +51,7 @@ Patch fitToHorizon(Patch patch_, vec3 axis, vec3 normal, vec3 toSurface) {
     float height = dot(normal, patch_.center - toSurface);
     vec2 slope = vec2(dot(normal, patch_.across), dot(normal, patch_.along));
     vec2 center, across, along;
-    if (shapeOfLight() == EXACT_RECT) {
+    if (light.emitter.shape == shapeRect) {
         // The bounding rectangle of what remains of the square. An edge of the square remains in part where its higher
         // end is above the horizon.
         vec2 other = abs(slope.yx);
@@ -104,39 +103,39 @@ const float pointTangent = 1e-3;  // the size of the window in whose centre a li
 
 SeenLight seeLight(vec3 apex) {
     SeenLight seen;
-    seen.toCenter = light.center.xyz - apex;
-    seen.axis = light.axisZ.xyz;
+    seen.toCenter = light.center - apex;
+    seen.axis = light.axisZ;
     seen.cosine = 1.0;
     seen.tangent = pointTangent;
     seen.patches = 1;
-    bool isPoint = light.boxMin.w != 0.0;
+    bool isPoint = !light.emitter.hasSize;
     if (isFlat()) {
-        float height = dot(seen.toCenter, light.axisZ.xyz);
-        seen.patches = (height > 0.0 || light.axisZ.w != 0.0) && abs(height) > 1e-7 * length(seen.toCenter) ? 1 : 0;
-        seen.axis = height < 0.0 ? -light.axisZ.xyz : light.axisZ.xyz;
-    } else if (shapeOfLight() == EXACT_SPHERE) {
+        float height = dot(seen.toCenter, light.axisZ);
+        seen.patches = (height > 0.0 || !light.emitter.isOneSided) && abs(height) > 1e-7 * length(seen.toCenter) ? 1 : 0;
+        seen.axis = height < 0.0 ? -light.axisZ : light.axisZ;
+    } else if (light.emitter.shape == shapeSphere) {
         float distance_m = length(seen.toCenter);
         seen.patches = distance_m > 0.0 ? 1 : 0;
         seen.axis = seen.toCenter / max(distance_m, 1e-37);
-        float sine = light.axisX.w / max(distance_m, 1e-37);
+        float sine = light.emitter.halfSize.x / max(distance_m, 1e-37);
         seen.cosine = sine < 1.0 ? sqrt((1.0 - sine) * (1.0 + sine)) : -1.0;
         if (!isPoint) seen.tangent = sine / max(seen.cosine, 0.1);
     } else {
-        seen.cosine = light.axisY.w;
-        if (!isPoint) seen.tangent = light.axisX.w;
+        seen.cosine = light.coneCosine;
+        if (!isPoint) seen.tangent = light.emitter.halfSize.x;
     }
     if (seen.patches != 0 && seen.cosine < wideCosine) seen.patches = 6;
     return seen;
 }
 
 Patch patchOf(SeenLight seen, int face, vec3 normal, vec3 toSurface) {
-    bool isPoint = light.boxMin.w != 0.0;
+    bool isPoint = !light.emitter.hasSize;
     if (isFlat()) {
         // A light of size zero is seen through a window around it; one that is only a line keeps a hair of width.
         float least = isPoint ? pointTangent * length(seen.toCenter)
-                                            : max(1e-6 * max(light.axisX.w, light.axisY.w), 1e-37);
-        Patch whole = makePatch(seen.toCenter, max(light.axisX.w, least) * light.axisX.xyz,
-                                max(light.axisY.w, least) * light.axisY.xyz, seen.axis);
+                                            : max(1e-6 * max(light.emitter.halfSize.x, light.emitter.halfSize.y), 1e-37);
+        Patch whole = makePatch(seen.toCenter, max(light.emitter.halfSize.x, least) * light.axisX,
+                                max(light.emitter.halfSize.y, least) * light.axisY, seen.axis);
         return isPoint ? whole : fitToHorizon(whole, seen.axis, normal, toSurface);
     }
     vec3 x = perpendicularTo(seen.axis), y = cross(seen.axis, x), z = seen.axis;
@@ -160,11 +159,11 @@ const float rayEnd = 1.0 - 1e-5;
 
 float endOfRay(SeenLight seen, vec3 direction) {
     if (isFlat()) return rayEnd;
-    if (shapeOfLight() == EXACT_DISTANT) return 3e38;
-    if (light.axisX.w == 0.0) return rayEnd * dot(seen.toCenter, direction) / dot(direction, direction);
+    if (light.emitter.shape == shapeDistant) return 3e38;
+    if (light.emitter.halfSize.x == 0.0) return rayEnd * dot(seen.toCenter, direction) / dot(direction, direction);
     vec3 unit = normalize(direction);
     vec3 beside = cross(unit, seen.toCenter);
-    float halfChord = sqrt(max(light.axisX.w * light.axisX.w - dot(beside, beside), 0.0));
+    float halfChord = sqrt(max(light.emitter.halfSize.x * light.emitter.halfSize.x - dot(beside, beside), 0.0));
     float middle = dot(unit, seen.toCenter);
     return rayEnd * (seen.cosine >= 0.0 ? middle - halfChord : middle + halfChord) / length(direction);
 }

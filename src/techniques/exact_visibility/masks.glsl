@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Holes of alpha-masked casters.
-layout(binding = 5) uniform usamplerBuffer maskedTriangles;
+uniform usamplerBuffer maskedTriangles;
 // x: factor; y: cutoff; z: which texture, w: of which group. The textures of one group are bound at a time.
-layout(std430, binding = 3) readonly buffer Masks { vec4 masks[]; };
-layout(binding = 8) uniform sampler2D alphaTextures[EXACT_GROUP_TEXTURES];
+layout(std430) readonly buffer Masks { vec4 masks[]; };
+uniform sampler2D alphaTextures[EXACT_GROUP_TEXTURES];
 
 float alphaOf(int which, vec2 uv) {
     // Samplers may only be indexed by what is the same for all.

@@ -16,19 +16,19 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/exact_visibility/masks.glsl"
 #include "src/techniques/exact_visibility/weights.glsl"
 
-layout(binding = 0) uniform writeonly image2D visibility;
-layout(binding = 1, r16f) uniform writeonly image2D errorBound;
-layout(binding = 6) uniform sampler2D radiance;
+layout(std140) uniform Constants { ExactRound round_; };
+layout(std430) readonly buffer Candidates { uint candidates[]; };
+layout(std430) readonly buffer TileLists { TileList tileLists[]; };
+layout(std430) readonly buffer Weights { vec4 weights[]; };
+uniform writeonly image2D visibility;
+layout(r16f) uniform writeonly image2D errorBound;
+uniform sampler2D radiance;
 
 // Work is done in rounds, each of a bounded number of iterations: those who are not done leave what they know here and
 // ask for another round. Rounds come in turns, one after the other for each group of alpha textures: as many as can be
 // bound at a time. A part of the work is one window, one lattice and one group.
-layout(std430, binding = 4) buffer States { uint states[]; };
-layout(std430, binding = 5) buffer Rounds { uint roundGroups[]; };  // three numbers a round, for indirect dispatch
-layout(location = 0) uniform int round_;
-layout(location = 1) uniform int roundWork;
-layout(location = 2) uniform int turnRounds;
-layout(location = 3) uniform int groups;
+layout(std430) buffer States { uint states[]; };
+layout(std430) buffer Rounds { uint roundGroups[]; };  // three numbers a round, for indirect dispatch
 #define STATE_WORDS (EXACT_STATE_WORDS + ROWS)
 int work = 0;
 
@@ -80,13 +80,13 @@ bool mayHide(Blocker t, vec3 normal) {
 }
 
 vec3 latticeOf(vec3 uvw, vec2 offset) {
-    precise vec3 lattice = vec3(uvw.x * light.lattice.xy + uvw.y * light.lattice.zw + uvw.z * offset, uvw.z);
+    precise vec3 lattice = vec3(uvw.x * light.latticeFromU + uvw.y * light.latticeFromV + uvw.z * offset, uvw.z);
     return lattice;
 }
 
 vec2 uvOf(vec2 ij, vec2 offset) {
     vec2 p = ij - offset;
-    return p.x * light.uvFromLattice.xy + p.y * light.uvFromLattice.zw;
+    return p.x * light.uvFromI + p.y * light.uvFromJ;
 }
 
 // What one triangle hides, row by row.
@@ -155,10 +155,10 @@ void hideSamples(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint leaf
 // Whether the triangle blocks whatever it covers, without a look at each sample.
 bool isPlain(Blocker t, SeenLight seen, uint leaf) {
     if ((leaf & EXACT_MASKED) != 0u) return false;
-    if (shapeOfLight() == EXACT_DISTANT) return true;
+    if (light.emitter.shape == shapeDistant) return true;
     if (isFlat()) return max(t.uvwA.z, max(t.uvwB.z, t.uvwC.z)) < rayEnd;
     float farthest_m = max(dot(seen.axis, t.a), max(dot(seen.axis, t.b), dot(seen.axis, t.c)));
-    return farthest_m < rayEnd * (length(seen.toCenter) - light.axisX.w);
+    return farthest_m < rayEnd * (length(seen.toCenter) - light.emitter.halfSize.x);
 }
 
 // Marks what cannot be seen even without blockers: no sample, or below the horizon.
@@ -166,8 +166,8 @@ void beginWith(Patch patch_, vec3 normal, int lattice, vec2 offset, vec3 toSurfa
     // How high the sample (i, j) is above the receiver's plane, times something: linear in i and j.
     vec3 center = patch_.center - toSurface;
     float rise = dot(normal, patch_.across), fall = dot(normal, patch_.along);
-    float perI = rise * light.uvFromLattice.x + fall * light.uvFromLattice.y;
-    float perJ = rise * light.uvFromLattice.z + fall * light.uvFromLattice.w;
+    float perI = rise * light.uvFromI.x + fall * light.uvFromI.y;
+    float perJ = rise * light.uvFromJ.x + fall * light.uvFromJ.y;
     float base = dot(normal, center) - perI * offset.x - perJ * offset.y;
     perI = abs(perI) < 1e-30 ? 1e-30 : perI;
     for (int j = 0; j < ROWS; ++j) {
@@ -189,7 +189,7 @@ struct Sums {
     float borders, samples;  // neighbouring samples of which one is seen and one is not; samples above the horizon
 };
 
-bool isUnevenlyWeighted() { return !isFlat() || light.boxMax.w != 0.0 || light.eye.w != 0.0; }
+bool isUnevenlyWeighted() { return !isFlat() || light.isWeightedByIrradiance || light.emitter.isTextured; }
 
 vec3 weightOf(SeenLight seen, Patch patch_, vec3 normal, vec2 uv, int index) {
     vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
@@ -197,8 +197,8 @@ vec3 weightOf(SeenLight seen, Patch patch_, vec3 normal, vec2 uv, int index) {
     vec3 weight = vec3(1.0);
     if (isFlat()) {
         // cos(receiver) cos(light) / distance^2, up to a factor that is the same for all samples.
-        if (light.boxMax.w != 0.0) weight *= max(dot(normal, direction), 0.0) / (length2 * length2) * dot(seen.toCenter, seen.toCenter);
-        if (light.eye.w != 0.0) {
+        if (light.isWeightedByIrradiance) weight *= max(dot(normal, direction), 0.0) / (length2 * length2) * dot(seen.toCenter, seen.toCenter);
+        if (light.emitter.isTextured) {
             // Windows fitted to the horizon have samples of their own, which stand for less.
             bool isWhole = patch_.lightAcross.x == 1.0 && patch_.lightAlong.y == 1.0;
             vec3 point = emitted(textureLod(radiance, 0.5 * onLight(patch_, uv) + 0.5, 0.0).rgb);
@@ -206,7 +206,7 @@ vec3 weightOf(SeenLight seen, Patch patch_, vec3 normal, vec2 uv, int index) {
         }
     } else {
         weight *= coneWeight(seen, uv, direction);
-        if (light.boxMax.w != 0.0) weight *= max(dot(normal, direction), 0.0) * inversesqrt(length2);
+        if (light.isWeightedByIrradiance) weight *= max(dot(normal, direction), 0.0) * inversesqrt(length2);
     }
     return weight;
 }
@@ -241,8 +241,8 @@ struct Progress {
     Walk walk;
 };
 
-bool isOver(Progress progress, uvec4 list) {
-    return progress.next >= list.x && progress.special >= list.y && progress.walk.node == EXACT_END;
+bool isOver(Progress progress, TileList list) {
+    return progress.next >= list.plain && progress.special >= list.special && progress.walk.node == EXACT_END;
 }
 
 void save(uint base, Progress progress, Sums sums) {
@@ -275,50 +275,50 @@ void load(uint base, out Progress progress, out Sums sums) {
 
 // In which of the group's turns a triangle is looked at: one with holes when its texture is bound, all others first.
 bool belongsTo(int group, uint leaf) {
-    return groups == 1 || ((leaf & EXACT_MASKED) != 0u ? groupOf(leaf & ~EXACT_MASKED) : 0) == group;
+    return round_.groups == 1 || ((leaf & EXACT_MASKED) != 0u ? groupOf(leaf & ~EXACT_MASKED) : 0) == group;
 }
 
-int groupOfRound() { return round_ / turnRounds % groups; }
+int groupOfRound() { return round_.number / round_.turnRounds % round_.groups; }
 
 // The next round in which the group's textures are bound.
 int roundFor(int group) {
-    int turn = round_ / turnRounds;
-    int wait = (group - turn % groups + groups) % groups;
-    if (wait == 0 && (round_ + 1) / turnRounds == turn) return round_ + 1;
-    return (turn + (wait == 0 ? groups : wait)) * turnRounds;
+    int turn = round_.number / round_.turnRounds;
+    int wait = (group - turn % round_.groups + round_.groups) % round_.groups;
+    if (wait == 0 && (round_.number + 1) / round_.turnRounds == turn) return round_.number + 1;
+    return (turn + (wait == 0 ? round_.groups : wait)) * round_.turnRounds;
 }
 
 Shaft shaftFrom(vec3 apex) {
-    bool isDistant = shapeOfLight() == EXACT_DISTANT;
+    bool isDistant = light.emitter.shape == shapeDistant;
     Shaft shaft;
     shaft.fromMin = apex - 1e-6 * abs(apex);
     shaft.fromMax = apex + 1e-6 * abs(apex);
-    shaft.inverseLower = inverseSlope(isDistant ? light.boxMin.xyz : light.boxMin.xyz - shaft.fromMin);
-    shaft.inverseUpper = inverseSlope(isDistant ? light.boxMax.xyz : light.boxMax.xyz - shaft.fromMax);
+    shaft.inverseLower = inverseSlope(isDistant ? light.boxMin : light.boxMin - shaft.fromMin);
+    shaft.inverseUpper = inverseSlope(isDistant ? light.boxMax : light.boxMax - shaft.fromMax);
     shaft.end = isDistant ? 3e37 : 1.0;
     return shaft;
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    bool inside = all(lessThan(pixel, view.size_px.xy));
+    bool inside = all(lessThan(pixel, view.size_px));
     uint base = uint(min(pixel.y, view.size_px.y - 1) * view.size_px.x + min(pixel.x, view.size_px.x - 1)) * STATE_WORDS;
     ivec2 tile = pixel / 8;
-    uint tileIndex = uint(tile.y * light.counts.y + tile.x);
-    uvec4 list = tileLists[tileIndex];
-    uint first = tileIndex * uint(light.counts.z), capacity = uint(light.counts.z);
+    uint tileIndex = uint(tile.y * light.tilesAcross + tile.x);
+    TileList list = tileLists[tileIndex];
+    uint first = tileIndex * uint(light.tileCapacity), capacity = uint(light.tileCapacity);
 
-    Progress progress = Progress(0, 0u, 0u, Walk(list.z, list.w));
+    Progress progress = Progress(0, 0u, 0u, Walk(list.stoppedAt, list.returnTo));
     Sums sums = Sums(vec3(0.0), vec3(0.0), 0.0, 0.0);
-    bool resumes = round_ > 0;
+    bool resumes = round_.number > 0;
     if (resumes) {
         if (states[base] == 0u || !inside) return;
         load(base, progress, sums);
-        if (progress.part % groups != groupOfRound()) return;  // has asked for a later round
+        if (progress.part % round_.groups != groupOfRound()) return;  // has asked for a later round
     }
 
     Receiver receiver;
-    bool receives = loadReceiver(min(pixel, view.size_px.xy - 1), receiver) && inside;
+    bool receives = loadReceiver(min(pixel, view.size_px - 1), receiver) && inside;
     vec3 apex = apexOf(receiver);
     Footing footing = footingOf(min(pixel, view.size_px - 1), receiver);
     SeenLight seen = seeLight(apex);
@@ -326,9 +326,9 @@ void main() {
     int patches = receives ? seen.patches : 0;
 
     bool isPaused = false;
-    for (; progress.part < 6 * light.counts.x * groups; ++progress.part) {
-        int window = progress.part / groups, group = progress.part - window * groups;
-        int face = window / light.counts.x, lattice = window - face * light.counts.x;
+    for (; progress.part < 6 * light.latticeCount * round_.groups; ++progress.part) {
+        int window = progress.part / round_.groups, group = progress.part - window * round_.groups;
+        int face = window / light.latticeCount, lattice = window - face * light.latticeCount;
         bool isOn = face < patches;
         if (!anyOfUs(isOn)) break;
         isPaused = group != groupOfRound();
@@ -340,11 +340,11 @@ void main() {
         resumes = false;
 
         bool isDark = !isOn || isAllHidden();
-        while (progress.next < list.x && work < roundWork && anyOfUs(!isDark)) {
+        while (progress.next < list.plain && work < round_.work && anyOfUs(!isDark)) {
             // The next candidate that matters to anyone.
             Blocker blocker;
             bool counts = false;
-            while (progress.next < list.x && work < roundWork && !anyOfUs(counts)) {
+            while (progress.next < list.plain && work < round_.work && !anyOfUs(counts)) {
                 blocker = loadBlocker(candidates[first + progress.next], apex, patch_);
                 counts = !isDark && mayHide(blocker, receiver.normalLight);
                 ++progress.next;
@@ -359,13 +359,13 @@ void main() {
 
         // Special candidates, then whatever did not fit into the lists.
         Shaft shaft = shaftFrom(apex);
-        while (!isOver(progress, list) && work < roundWork && anyOfUs(!isDark)) {
+        while (!isOver(progress, list) && work < round_.work && anyOfUs(!isDark)) {
             // The next triangle that matters to anyone.
             bool counts = false;
             uint leaf = 0u;
             Blocker blocker;
-            while (!isOver(progress, list) && work < roundWork && !anyOfUs(counts)) {
-                bool isListed = progress.special < list.y;
+            while (!isOver(progress, list) && work < round_.work && !anyOfUs(counts)) {
+                bool isListed = progress.special < list.special;
                 TreeNode visited = loadNode(isListed ? 0u : progress.walk.node);
                 leaf = isListed ? candidates[first + capacity - 1u - progress.special] : visited.leaf;
                 bool isHit = isListed || anyOfUs(!isDark && mayBlock(shaft, visited.boxMin, visited.boxMax));
@@ -388,23 +388,23 @@ void main() {
         if (isPaused) break;
 
         // What is all hidden stays so: the other groups need not be asked.
-        bool isLast = group == groups - 1 || !anyOfUs(!isDark);
+        bool isLast = group == round_.groups - 1 || !anyOfUs(!isDark);
         if (isLast) {
-            progress.part += groups - 1 - group;
+            progress.part += round_.groups - 1 - group;
             addUp(sums, seen, patch_, receiver.normalLight, lattice, offset, isOn);
             for (int j = 0; j < ROWS; ++j) hidden[j] = 0u;  // what is saved of a window that has not begun
             work += 32 * ROWS;
         }
-        progress.next = isLast ? 0u : list.x;
+        progress.next = isLast ? 0u : list.plain;
         progress.special = 0u;
-        progress.walk = Walk(list.z, list.w);
+        progress.walk = Walk(list.stoppedAt, list.returnTo);
     }
 
     if (!inside) return;
     if (isPaused) {
         save(base, progress, sums);
-        uvec2 size = uvec2(view.size_px.xy + 7) / 8u;
-        int next = 3 * roundFor(progress.part % groups);
+        uvec2 size = uvec2(view.size_px + 7) / 8u;
+        int next = 3 * roundFor(progress.part % round_.groups);
         atomicMax(roundGroups[next], size.x);
         atomicMax(roundGroups[next + 1], size.y);
         atomicMax(roundGroups[next + 2], 1u);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The casters' triangles and the tree over them (caster_soup.h).
-layout(binding = 3) uniform usamplerBuffer treeNodes;
-layout(binding = 4) uniform usamplerBuffer triangles;
+uniform usamplerBuffer treeNodes;
+uniform usamplerBuffer triangles;
 
 struct TreeNode {
     vec3 boxMin, boxMax;

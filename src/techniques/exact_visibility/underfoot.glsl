@@ -22,7 +22,7 @@ Footing footingOf(ivec2 pixel, Receiver receiver) {
     float depth = depthAt(pixel);
     float nearness = depth * view.nearnessScale + view.nearnessOffset;
     vec3 moved = positionLight(pixel, depth + step_ * nearness * view.nearnessScale) - receiver.posLight;
-    return Footing(dot(light.sight, vec4(receiver.posLight, 1.0)), 1.0 / nearness,
+    return Footing(dot(light.sight, receiver.posLight) + light.sightOffset, 1.0 / nearness,
                    abs(dot(receiver.normalLight, moved)) / step_);
 }
 
@@ -34,10 +34,10 @@ bool isUnderfoot(Footing footing, vec3 normal, vec3 apex, vec3 a, vec3 b, vec3 c
 
     // Nearness at the triangle's nearest point over that at the receiver. Depths of orthographic views, and those that
     // are not reversed, have the rounding of a nearness of 1 everywhere.
-    vec3 shares = vec3(dot(light.sight.xyz, a), dot(light.sight.xyz, b), dot(light.sight.xyz, c)) +
-                  dot(light.sight, vec4(apex, 1.0));
+    vec3 shares = vec3(dot(light.sight, a), dot(light.sight, b), dot(light.sight, c)) +
+                  dot(light.sight, apex) + light.sightOffset;
     float nearest = max(min(shares.x, min(shares.y, shares.z)), 1e-30);
-    bool isEven = light.sight.xyz == vec3(0.0) || view.nearnessScale < 0.0;
+    bool isEven = light.sight == vec3(0.0) || view.nearnessScale < 0.0;
     float ratio = isEven ? footing.inverseNearness : clamp(footing.share / nearest, 1.0, footing.inverseNearness);
 
     vec3 size = max(abs(a), max(abs(b), abs(c)));

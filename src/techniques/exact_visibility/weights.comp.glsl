@@ -5,10 +5,11 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/exact_visibility/exact_io.h"
-layout(std140, binding = 1) uniform LightBlock { ExactLight light; };
+layout(std140) uniform LightBlock { ExactLight light; };
 #include "src/techniques/exact_visibility/weights.glsl"
 
-layout(binding = 6) uniform sampler2D radiance;
+layout(std430) writeonly buffer Weights { vec4 weights[]; };
+uniform sampler2D radiance;
 
 void main() {
     ivec2 ij = ivec2(gl_GlobalInvocationID.xy);
@@ -23,7 +24,7 @@ void main() {
     for (int k = 0; k < taps * taps; ++k) {
         vec2 place = (vec2(k % taps, k / taps) + 0.5) / float(taps) - 0.5;
         vec2 p = vec2(ij) + place - light.offsets[lattice].xy;
-        vec2 uv = p.x * light.uvFromLattice.xy + p.y * light.uvFromLattice.zw;
+        vec2 uv = p.x * light.uvFromI + p.y * light.uvFromJ;
         if (max(abs(uv.x), abs(uv.y)) > 1.0) continue;
         sum += emitted(textureLod(radiance, 0.5 * uv + 0.5, 0.0).rgb);
         count += 1.0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mean radiance of a textured light around each sample.
-layout(std430, binding = 6) buffer Weights { vec4 weights[]; };
+// Mean radiance of a textured light around each sample: an element of `weights`, which the includer declares.
 
 int weightIndex(int lattice, int i, int j) { return (lattice * EXACT_MAX_ROWS + j) * EXACT_MAX_ROWS + i; }
 
