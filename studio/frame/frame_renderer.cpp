@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "penumbra/light_plane.h"
 #include "src/gl/pass.h"
 #include "studio/frame/conversions.h"
 #include "studio/frame/shaders.h"
@@ -126,6 +127,7 @@ LightingConstants FrameRenderer::lightingConstants(const Light& light, bool colo
         .isPoint = light.emission.unit != Emission::Unit::nits && !hasSize(shape),
         .isTextured = light.texture >= 0,
         .isVisibilityColored = coloredVisibility,
+        .planeTolerance = lightPlaneTolerance,
         .size_px = {display_.width_px(), display_.height_px()},
         .profile = profileConstants(light),
     };

@@ -32,6 +32,10 @@ float irradiance(vec3 pos, vec3 normal) {
     int shape = light.shape;
     bool behind = pos.z >= 0.0;
     if ((shape == shapeRect || shape == shapeDisk) && behind && !light.isTwoSided) return 0.0;
+    // What lies in the plane of a flat light sees nothing of it.
+    vec2 halfSize_m = shape == shapeRect ? light.halfSize_m : vec2(light.radius_m);
+    bool isFlat = (shape == shapeRect || shape == shapeDisk) && !light.isPoint;
+    if (isFlat && abs(pos.z) <= light.planeTolerance * (length(pos) + length(halfSize_m))) return 0.0;
     if (light.profile.type != noProfile)
         return profiledIrradiance(light.profile, shape, light.isPoint, light.halfSize_m, light.radius_m, pos, normal);
     if (light.isPoint) return pointIrradiance(pos, normal);

@@ -40,6 +40,7 @@ SHARED_STRUCT LightingConstants {
     bool32 isPoint;  // of size zero: emission in candela or lux
     bool32 isTextured;
     bool32 isVisibilityColored;
+    float planeTolerance;  // up to where a point lies in the plane of a flat light (penumbra/light_plane.h)
     ivec2 size_px;
     ProfileConstants profile;
 };

@@ -8,7 +8,6 @@
 #include "studio/errors.h"
 #include "studio/reference/embree.h"
 #include "studio/reference/occlusion_scene.h"
-#include "studio/reference/traced_triangle.h"
 
 namespace penumbra::studio {
 namespace {
@@ -64,7 +63,7 @@ struct OcclusionScene::Surface {
     /// Called by Embree where something seems to block rays.
     static void filter(const RTCFilterFunctionNArguments* hits) {
         const auto& surface = *static_cast<const Surface*>(hits->geometryUserPtr);
-        const float* const ends = reinterpret_cast<const FanContext*>(hits->context)->ends;
+        const auto& fan = *reinterpret_cast<const FanContext*>(hits->context);
         const unsigned count = hits->N;
         for (unsigned i = 0; i < count; ++i) {
             if (hits->valid[i] == 0) continue;
@@ -74,9 +73,11 @@ struct OcclusionScene::Surface {
             const glm::dvec3 direction(RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i),
                                        RTCRayN_dir_z(rays, count, i));
             const unsigned number = RTCHitN_primID(hits->hit, count, i);
-            const double end = ends[RTCRayN_id(rays, count, i)];
+            const double end = fan.ends[RTCRayN_id(rays, count, i)];
+            const TracedTriangle triangle = surface.triangle(number);
             const bool blocks =
-                surface.triangle(number).isCrossedWithin(origin, direction, end) &&
+                triangle.isCrossedWithin(origin, direction, end) &&
+                !(fan.lightPlane && fan.lightPlane->contains(triangle)) &&
                 surface.isSolidAt(number, RTCHitN_u(hits->hit, count, i), RTCHitN_v(hits->hit, count, i));
             if (!blocks) hits->valid[i] = 0;
         }
@@ -84,8 +85,9 @@ struct OcclusionScene::Surface {
 
     /// What a filter is told of the fan that is traced: Embree hands it on.
     struct FanContext {
-        RayContext embree;  // first: Embree's pointer to it is one to this
-        const float* ends;           // of the rays, by their ids
+        RayContext embree;             // first: Embree's pointer to it is one to this
+        const float* ends;             // of the rays, by their ids
+        const LightPlane* lightPlane;  // or null
     };
 };
 
@@ -176,6 +178,7 @@ glm::dvec3 OcclusionScene::onSurface(const glm::dvec3& posWorld, const glm::dvec
 void OcclusionScene::trace(const glm::vec3& origin, const RayFan& rays,
                            std::span<std::uint8_t> blocked) const {
     Surface::FanContext context{};
+    context.lightPlane = rays.lightPlane ? &*rays.lightPlane : nullptr;
     RTCRay16 packet{};
     std::ranges::fill(packet.org_x, origin.x);
     std::ranges::fill(packet.org_y, origin.y);

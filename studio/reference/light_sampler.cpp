@@ -88,6 +88,18 @@ glm::vec3 LightSampler::radianceAt(const glm::vec2& square) const {
     return radiance;
 }
 
+std::optional<LightPlane> LightSampler::plane() const {
+    switch (shape_.shape) {
+        case LightShape::rect:
+            return LightPlane{center_, axisZ_,
+                              0.5 * glm::length(glm::dvec2(shape_.width_m, shape_.height_m))};
+        case LightShape::disk:
+            return LightPlane{center_, axisZ_, glm::length(glm::dvec2(shape_.radius_m))};
+        default:
+            return std::nullopt;
+    }
+}
+
 LightSampler::FromReceiver::FromReceiver(const LightSampler& sampler, const glm::vec3& posWorld,
                                          const glm::vec3& normalWorld)
     : light_(sampler), normalWorld_(normalWorld), toCenter_(sampler.center_ - posWorld) {

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "penumbra/light.h"
 #include "studio/reference/reference.h"
+#include "studio/reference/traced_triangle.h"
 
 namespace penumbra::studio {
 
@@ -26,6 +28,8 @@ class LightSampler {
     /// The light is a point or a single direction: every sample is the same.
     bool isPoint() const { return isPoint_; }
     int channels() const { return texture_ ? 3 : 1; }
+    /// Of rect and disk lights.
+    std::optional<LightPlane> plane() const;
 
     /// The light from one receiver.
     class FromReceiver {

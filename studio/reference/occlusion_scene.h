@@ -4,17 +4,20 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "studio/reference/reference.h"
+#include "studio/reference/traced_triangle.h"
 
 namespace penumbra::studio {
 
 /// Rays from one point, as separate arrays because that is how they are traced.
 struct RayFan {
     std::vector<float> directionX, directionY, directionZ;
-    std::vector<float> end;  ///< in multiples of the direction; infinity for none
+    std::vector<float> end;                ///< in multiples of the direction; infinity for none
+    std::optional<LightPlane> lightPlane;  ///< what lies in it blocks nothing
 
     std::size_t size() const { return end.size(); }
     void resize(std::size_t count);

@@ -109,7 +109,9 @@ class PixelTracer {
   public:
     PixelTracer(const OcclusionScene& scene, const LightSampler& light, const SobolPoints& points,
                 std::uint32_t seed)
-        : scene_(scene), light_(light), points_(points), seed_(seed) {}
+        : scene_(scene), light_(light), points_(points), seed_(seed) {
+        fan_.lightPlane = light.plane();
+    }
 
     PixelResult trace(std::uint32_t pixel, const glm::vec3& posFromDepth, const glm::vec3& normalWorld,
                       const glm::vec3& eyeWorld) {

@@ -93,9 +93,9 @@ class ReferenceScene {
     /// their normal, if one lies within 1e-3 of (their distance from the eye + their largest coordinate). A
     /// depth buffer's position of a triangle of 400 m is off by more than what a contact shadow can bear.
     ///
-    /// A blocker exactly in the receiver's plane or exactly in the light's does not block: rays start off the
-    /// surface by 4e-6 of (its distance from the eye + its largest coordinate) and end 1e-5 of their length
-    /// before the light.
+    /// A blocker exactly in the receiver's plane does not block, nor one in the light's own
+    /// (penumbra/light_plane.h): rays start off the surface by 4e-6 of (its distance from the eye + its
+    /// largest coordinate) and end 1e-5 of their length before the light.
     ///
     /// `texture` (or nullptr) is for rect lights. The same seed gives the same bits, whatever the number of
     /// threads.

@@ -2,7 +2,10 @@
 #include "studio/reference/traced_triangle.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "penumbra/light_plane.h"
 
 namespace penumbra::studio {
 namespace {
@@ -37,6 +40,14 @@ glm::dvec3 TracedTriangle::nearestTo(const glm::dvec3& place) const {
         if (glm::distance(other, place) < glm::distance(nearest, place)) nearest = other;
     }
     return nearest;
+}
+
+bool LightPlane::contains(const TracedTriangle& triangle) const {
+    return std::ranges::all_of(std::array{triangle.a, triangle.b, triangle.c}, [&](const glm::dvec3& corner) {
+        const glm::dvec3 fromCenter = corner - center;
+        return std::abs(glm::dot(axis, fromCenter)) <=
+               double(lightPlaneTolerance) * (glm::length(fromCenter) + reach_m);
+    });
 }
 
 bool NearestPlane::take(const TracedTriangle& triangle) {

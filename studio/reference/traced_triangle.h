@@ -19,6 +19,14 @@ struct TracedTriangle {
     glm::dvec3 nearestTo(const glm::dvec3& place) const;
 };
 
+/// The plane of a rect or disk light. What lies in it hides nothing of the light (penumbra/light_plane.h).
+struct LightPlane {
+    glm::dvec3 center, axis;  ///< the axis is unit
+    double reach_m;           ///< half the diagonal of the light's bounding rectangle
+
+    bool contains(const TracedTriangle& triangle) const;
+};
+
 /// Of triangles that are seen one after another, the nearest to a place that lies across a normal.
 class NearestPlane {
   public:

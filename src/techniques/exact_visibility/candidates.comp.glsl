@@ -106,7 +106,7 @@ void main() {
     for (int step_ = 0; step_ < min(light.nodeCount, longestWalk) && walk.node != EXACT_END && plain + special < capacity; ++step_) {
         TreeNode node = loadNode(walk.node);
         bool isHit = mayBlockTile(shaft, bounds, node.boxMin, node.boxMax);
-        if (isHit && isTriangle(node)) {
+        if (isHit && isTriangle(node) && !isInLightPlane(node.leaf & ~EXACT_MASKED)) {
             bool isSpecial = (node.leaf & EXACT_MASKED) != 0u || mayReachLight(bounds, node.boxMin, node.boxMax);
             uint place = isSpecial ? capacity - 1u - special : plain;
             candidates[first + place] = node.leaf;

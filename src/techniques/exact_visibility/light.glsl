@@ -6,6 +6,12 @@ layout(std140) uniform LightBlock { ExactLight light; };
 
 bool isFlat() { return light.emitter.shape == shapeRect || light.emitter.shape == shapeDisk; }
 
+// Whether a point counts as lying in the plane of a flat light.
+bool liesInLightPlane(vec3 pos) {
+    vec3 fromCenter = pos - light.center;
+    return abs(dot(light.axisZ, fromCenter)) <= light.planeTolerance * (length(fromCenter) + length(light.emitter.halfSize));
+}
+
 // Where rays start: off the surface, so that they do not meet it again. A position from a depth buffer carries some ten
 // roundings of 2^-24 each, relative to its distance from the eye and to its coordinates; 4e-6 is six times their sum.
 vec3 apexOf(Receiver receiver) {

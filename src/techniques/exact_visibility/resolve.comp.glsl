@@ -374,6 +374,7 @@ void main() {
                 progress.special += isListed ? 1u : 0u;
                 blocker = loadBlocker(isBlocker ? leaf & ~EXACT_MASKED : 0u, apex, patch_);
                 counts = isBlocker && !isDark && mayHide(blocker, receiver.normalLight);
+                if (!isListed && counts) counts = !isInLightPlane(leaf & ~EXACT_MASKED);
                 ++work;
             }
             counts = counts && !isUnderfoot(footing, receiver.normalLight, apex, blocker.a, blocker.b, blocker.c);

@@ -18,6 +18,12 @@ vec3 loadCorner(uint triangle, uint corner) {
     return uintBitsToFloat(texelFetch(triangles, int(3u * triangle + corner)).xyz);
 }
 
+// What lies in the plane of a flat light hides nothing of it.
+bool isInLightPlane(uint triangle) {
+    return isFlat() && liesInLightPlane(loadCorner(triangle, 0u)) && liesInLightPlane(loadCorner(triangle, 1u)) &&
+           liesInLightPlane(loadCorner(triangle, 2u));
+}
+
 // A place in a walk through the tree: nothing else is needed to go on from there.
 struct Walk {
     uint node;      // EXACT_END: over
