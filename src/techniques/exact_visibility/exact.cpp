@@ -27,6 +27,7 @@ constexpr int softwareRoundWork = 40000;
 constexpr int hardwareRoundWork = 1000000;
 
 void bindMaskGroup(gl::Pass& pass, std::span<const unsigned> textures, int group) {
+    if (!pass.has("alphaTextures")) return;
     for (std::size_t i = 0; i < EXACT_GROUP_TEXTURES; ++i) {
         const std::size_t which = std::size_t(group) * EXACT_GROUP_TEXTURES + i;
         pass.bind("alphaTextures", i, {.name = which < textures.size() ? textures[which] : 0});
@@ -136,6 +137,16 @@ ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs,
     return result;
 }
 
+const gl::Program& ExactVisibility::resolveFor(const ResolveKind& kind) {
+    const auto found = resolve_.find(kind);
+    if (found != resolve_.end()) return found->second;
+    std::vector<std::string> defines{"ROWS " + std::to_string(kind.rows)};
+    if (kind.hasHoles) defines.emplace_back("WITH_HOLES");
+    if (kind.isUneven) defines.emplace_back("WITH_WEIGHTS");
+    return resolve_.emplace(kind, gl::Program(device_.shaders, {resolveShader}, std::move(defines)))
+        .first->second;
+}
+
 /// How many rounds a turn takes at most: every node visited, every triangle projected, every sample looked
 /// at.
 int ExactVisibility::roundsFor(int rows, LightShape shape) const {
@@ -156,6 +167,7 @@ void ExactVisibility::allocate(int width_px, int height_px, int rows, int rounds
                      .label = "exact/error bound"});
     tileCount_ =
         std::size_t((width_px + tile_px - 1) / tile_px) * std::size_t((height_px + tile_px - 1) / tile_px);
+    busy_.reserve(sizeof(BusyTiles) + tileCount_ * sizeof(std::uint32_t), "exact/busy tiles");
     tiles_.reserve(tileCount_ * sizeof(TileList), "exact/tiles");
     lists_.reserve(tileCount_ * std::size_t(tileCapacity_) * sizeof(std::uint32_t), "exact/candidates");
     states_.reserve(std::size_t(width_px) * std::size_t(height_px) * std::size_t(EXACT_STATE_WORDS + rows) *
@@ -196,16 +208,14 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
     const int turns = groups * int(lattices.size()) * (isCone ? 6 : 1);
     const int turnRounds = roundsFor(int(rows), inputs.light.shape);
     allocate(out.width_px(), out.height_px(), int(rows), turns * turnRounds);
-    auto resolve = resolve_.find(int(rows));
-    if (resolve == resolve_.end()) {
-        gl::Program program(device_.shaders, {resolveShader}, {"ROWS " + std::to_string(rows)});
-        resolve = resolve_.emplace(int(rows), std::move(program)).first;
-    }
+    const bool isUneven = isCone || weight_ != 0 || inputs.light.radianceTexture != 0;
+    const gl::Program& resolve = resolveFor({int(rows), soup_.maskedCount() > 0, isUneven});
     light_.write(describeLight(inputs, lattices));
     glm::dmat4 sceneFromWorld(1);
     sceneFromWorld[3] = glm::dvec4(-soup_.originWorld(), 1);
     view_.fill(inputs.view, sceneFromWorld);
     counters_.clear();
+    busy_.clear(0, sizeof(BusyTiles));
     {
         const auto pass = timers_.pass("exact/candidates");
         constexpr std::size_t groupTiles = 32;
@@ -216,6 +226,9 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
             .bind("Candidates", lists_)
             .bind("TileLists", tiles_)
             .bind("Counters", counters_)
+            .bind("Busy", busy_)
+            .bind("visibility", imageOf(out))
+            .bind("errorBound", errorBound_)
             .dispatch((tileCount_ + groupTiles - 1) / groupTiles);
     }
     const gl::TextureRef radiance{.name = inputs.light.radianceTexture};
@@ -229,7 +242,7 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
     }
     const auto timed = timers_.pass("exact/resolve");
     rounds_.clear();
-    gl::Pass pass(resolve->second);
+    gl::Pass pass(resolve);
     pass.inOrder()
         .bind(view_)
         .bind("LightBlock", light_)
@@ -237,16 +250,17 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
         .bind("Candidates", lists_)
         .bind("TileLists", tiles_)
         .bind("Counters", counters_)
-        .bind("Masks", masks_)
+        .bind("Busy", busy_)
         .bind("Weights", weights_)
         .bind("radiance", radiance)
         .bind("States", states_)
         .bind("Rounds", rounds_)
         .bind("visibility", imageOf(out))
         .bind("errorBound", errorBound_);
+    if (pass.has("Masks")) pass.bind("Masks", masks_);
     bindMaskGroup(pass, maskTextures, 0);
     ExactRound round{.number = 0, .work = roundWork_, .turnRounds = turnRounds, .groups = groups};
-    pass.constants(round).dispatchPixels(out.width_px(), out.height_px());
+    pass.constants(round).dispatchIndirect(busy_);
     while (++round.number < turns * turnRounds) {
         if (groups > 1 && round.number % turnRounds == 0)
             bindMaskGroup(pass, maskTextures, round.number / turnRounds % groups);
@@ -266,9 +280,10 @@ Statistics ExactVisibility::statistics() const {
     Statistics statistics;
     statistics.counts = {
         {"triangles", double(soup_.triangleCount())},
-        {"tiles with candidates", double(counters.busyTiles)},
-        {"candidates per tile",
-         counters.busyTiles > 0 ? double(counters.triangleSum) / counters.busyTiles : 0.0},
+        {"tiles with candidates", double(counters.tilesWithCandidates)},
+        {"candidates per tile", counters.tilesWithCandidates > 0
+                                    ? double(counters.triangleSum) / counters.tilesWithCandidates
+                                    : 0.0},
         {"most candidates in a tile", double(counters.largestTile)},
         {"tiles beyond their room", double(counters.fullTiles)},
         {"penumbra pixels", double(counters.boundedPixels)},
@@ -276,8 +291,8 @@ Statistics ExactVisibility::statistics() const {
          counters.boundedPixels > 0 ? counters.boundSum / 256.0 / counters.boundedPixels : 0.0},
         {"largest error bound", counters.largestBound / 256.0},
         {"memory",
-         double(soup_.size_bytes() + lists_.size_bytes() + tiles_.size_bytes() + states_.size_bytes() +
-                rounds_.size_bytes() + weights_.size_bytes() +
+         double(soup_.size_bytes() + lists_.size_bytes() + tiles_.size_bytes() + busy_.size_bytes() +
+                states_.size_bytes() + rounds_.size_bytes() + weights_.size_bytes() +
                 2 * std::size_t(errorBound_.width_px()) * std::size_t(errorBound_.height_px())) /
              (1 << 20),
          "MiB"},

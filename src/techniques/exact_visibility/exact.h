@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <map>
 #include <span>
 #include <utility>
@@ -42,10 +43,19 @@ class ExactVisibility final : public Technique {
 
   private:
     struct Counters {
-        std::uint32_t triangleSum = 0, largestTile = 0, busyTiles = 0, fullTiles = 0;
+        std::uint32_t triangleSum = 0, largestTile = 0, tilesWithCandidates = 0, fullTiles = 0;
         std::uint32_t boundedPixels = 0, boundSum = 0, largestBound = 0;
     };
 
+    /// What a program that resolves is made for.
+    struct ResolveKind {
+        int rows;       ///< of the lattice
+        bool hasHoles;  ///< casters have alpha masks
+        bool isUneven;  ///< samples do not count alike
+        auto operator<=>(const ResolveKind&) const = default;
+    };
+
+    const gl::Program& resolveFor(const ResolveKind& kind);
     void allocate(int width_px, int height_px, int rows, int rounds);
     int roundsFor(int rows, LightShape shape) const;
     const std::vector<LightLattice>& latticesFor(const AreaLight& light);
@@ -60,12 +70,12 @@ class ExactVisibility final : public Technique {
     Device::Internals& device_;
     CasterSoup soup_;
     gl::Program candidates_, weigh_;
-    std::map<int, gl::Program> resolve_;                                  // by rows of the lattice
+    std::map<ResolveKind, gl::Program> resolve_;
     std::map<std::pair<int, bool>, std::vector<LightLattice>> lattices_;  // by samples, and whether in a disk
     ViewBinding view_;
     gl::ConstantBuffer<ExactLight> light_;
     gl::StorageArray<glm::vec4> masks_;
-    gl::Buffer tiles_, lists_, counters_, states_, rounds_, weights_;
+    gl::Buffer busy_, tiles_, lists_, counters_, states_, rounds_, weights_;
     gl::Texture errorBound_;
     std::size_t tileCount_ = 0;
     gl::PassTimers timers_;

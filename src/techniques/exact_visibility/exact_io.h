@@ -20,6 +20,8 @@ namespace penumbra {
 
 #define EXACT_GROUP_TEXTURES 8  // alpha textures that are bound at a time
 
+#define EXACT_GROUPS_ACROSS 32768u  // in the x direction of a dispatch
+
 #define EXACT_STATE_WORDS 13  // of a receiver whose work is not done, before the rows
 
 /// In scene space: the world's axes, moved.
@@ -52,6 +54,13 @@ SHARED_STRUCT ExactLight {
 SHARED_STRUCT TileList {
     uint plain, special;       // how many
     uint stoppedAt, returnTo;  // where the walk through the tree stopped for want of room (see Walk)
+};
+
+/// Tiles whose pixels are looked at one by one, listed behind this: the arguments of a dispatch of so many
+/// groups or a few more, and how many there are.
+SHARED_STRUCT BusyTiles {
+    uint groupsX, groupsY, groupsZ;
+    uint count;
 };
 
 /// A round of the work of receivers (see resolve.comp.glsl).

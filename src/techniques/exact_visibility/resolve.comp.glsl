@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
 #extension GL_ARB_shader_group_vote : enable
-// For each receiver, the samples of the light that no candidate of its tile hides. Defines: ROWS, the rows of a lattice.
+// For each receiver of a busy tile, the samples of the light that no candidate of its tile hides. Defines: ROWS, the rows
+// of a lattice; WITH_HOLES, where casters have alpha masks, and WITH_WEIGHTS, where samples do not count alike: llvmpipe
+// runs both sides of a branch, and every loop once.
 layout(local_size_x = 8, local_size_y = 8) in;
 #ifndef ROWS
 #define ROWS 11
@@ -13,12 +15,15 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/exact_visibility/tiles.glsl"
 #include "src/techniques/exact_visibility/underfoot.glsl"
 #include "src/techniques/exact_visibility/coverage.glsl"
+#ifdef WITH_HOLES
 #include "src/techniques/exact_visibility/masks.glsl"
+#endif
 #include "src/techniques/exact_visibility/weights.glsl"
 
 layout(std140) uniform Constants { ExactRound round_; };
 layout(std430) readonly buffer Candidates { uint candidates[]; };
 layout(std430) readonly buffer TileLists { TileList tileLists[]; };
+layout(std430) readonly buffer Busy { BusyTiles busy; uint busyTiles[]; };
 layout(std430) readonly buffer Weights { vec4 weights[]; };
 uniform writeonly image2D visibility;
 layout(r16f) uniform writeonly image2D errorBound;
@@ -140,10 +145,12 @@ void hideSamples(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint leaf
             vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
             float w = clamp(height / dot(normal, direction), nearest, farthest);
             bool blocks = w < endOfRay(seen, direction);
+#ifdef WITH_HOLES
             if ((leaf & EXACT_MASKED) != 0u) {
                 vec3 share = vec3(dot(acrossA, direction), dot(acrossB, direction), dot(acrossC, direction));
                 blocks = blocks && isSolid(leaf & ~EXACT_MASKED, share / (share.x + share.y + share.z));
             }
+#endif
             uint bit = bits & (0u - bits);
             stays |= blocks ? bit : 0u;
             bits &= ~bit;
@@ -189,8 +196,6 @@ struct Sums {
     float borders, samples;  // neighbouring samples of which one is seen and one is not; samples above the horizon
 };
 
-bool isUnevenlyWeighted() { return !isFlat() || light.isWeightedByIrradiance || light.emitter.isTextured; }
-
 vec3 weightOf(SeenLight seen, Patch patch_, vec3 normal, vec2 uv, int index) {
     vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
     float length2 = dot(direction, direction);
@@ -212,8 +217,9 @@ vec3 weightOf(SeenLight seen, Patch patch_, vec3 normal, vec2 uv, int index) {
 }
 
 void addUp(inout Sums sums, SeenLight seen, Patch patch_, vec3 normal, int lattice, vec2 offset, bool counts) {
-    bool uneven = isUnevenlyWeighted();
-    for (int j = 0; j < ROWS && uneven; ++j) {
+#ifdef WITH_WEIGHTS
+    const bool uneven = true;
+    for (int j = 0; j < ROWS; ++j) {
         for (uint bits = counts ? ~unlit[j] : 0u; bits != 0u; bits &= bits - 1u) {
             int i = findLSB(bits);
             vec2 uv = uvOf(vec2(i, j), offset);
@@ -222,6 +228,9 @@ void addUp(inout Sums sums, SeenLight seen, Patch patch_, vec3 normal, int latti
             sums.seen += (hidden[j] >> uint(i) & 1u) == 0u ? weight : vec3(0.0);
         }
     }
+#else
+    const bool uneven = false;
+#endif
     for (int j = 0; j < ROWS; ++j) {
         uint seenRow = counts ? ~hidden[j] : 0u, wholeRow = counts ? ~unlit[j] : 0u;
         if (!uneven) {
@@ -275,7 +284,11 @@ void load(uint base, out Progress progress, out Sums sums) {
 
 // In which of the group's turns a triangle is looked at: one with holes when its texture is bound, all others first.
 bool belongsTo(int group, uint leaf) {
+#ifdef WITH_HOLES
     return round_.groups == 1 || ((leaf & EXACT_MASKED) != 0u ? groupOf(leaf & ~EXACT_MASKED) : 0) == group;
+#else
+    return true;
+#endif
 }
 
 int groupOfRound() { return round_.number / round_.turnRounds % round_.groups; }
@@ -300,11 +313,13 @@ Shaft shaftFrom(vec3 apex) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    uint place = gl_WorkGroupID.y * EXACT_GROUPS_ACROSS + gl_WorkGroupID.x;
+    if (place >= busy.count) return;
+    uint tileIndex = busyTiles[place];
+    ivec2 tile = ivec2(int(tileIndex) % light.tilesAcross, int(tileIndex) / light.tilesAcross);
+    ivec2 pixel = 8 * tile + ivec2(gl_LocalInvocationID.xy);
     bool inside = all(lessThan(pixel, view.size_px));
     uint base = uint(min(pixel.y, view.size_px.y - 1) * view.size_px.x + min(pixel.x, view.size_px.x - 1)) * STATE_WORDS;
-    ivec2 tile = pixel / 8;
-    uint tileIndex = uint(tile.y * light.tilesAcross + tile.x);
     TileList list = tileLists[tileIndex];
     uint first = tileIndex * uint(light.tileCapacity), capacity = uint(light.tileCapacity);
 
@@ -404,10 +419,9 @@ void main() {
     if (!inside) return;
     if (isPaused) {
         save(base, progress, sums);
-        uvec2 size = uvec2(view.size_px + 7) / 8u;
         int next = 3 * roundFor(progress.part % round_.groups);
-        atomicMax(roundGroups[next], size.x);
-        atomicMax(roundGroups[next + 1], size.y);
+        atomicMax(roundGroups[next], busy.groupsX);
+        atomicMax(roundGroups[next + 1], busy.groupsY);
         atomicMax(roundGroups[next + 2], 1u);
         return;
     }

@@ -4,5 +4,5 @@
 
 // For statistics. Of the error bounds: in parts of 256.
 layout(std430) buffer Counters {
-    uint triangleSum, largestTile, busyTiles, fullTiles, boundedPixels, boundSum, largestBound;
+    uint triangleSum, largestTile, tilesWithCandidates, fullTiles, boundedPixels, boundSum, largestBound;
 };
