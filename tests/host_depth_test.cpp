@@ -8,6 +8,7 @@
 #include "src/gl/texture.h"
 #include "studio/frame/conversions.h"
 #include "tests/support/host_test.h"
+#include "tests/support/random_ground.h"
 
 namespace penumbra::studio {
 namespace {
@@ -25,7 +26,8 @@ struct Range {
 class HostDepth : public HostTest {
   protected:
     /// The frame's casters as a host with that depth sees them; without a far plane where it is reversed.
-    View drawn(const ShadowInputs& frame, const DepthForm& form, const Range& range) {
+    View drawn(const ShadowInputs& frame, const DepthForm& form, const Range& range,
+               bool hasNormals = false) {
         const bool fromZero = form.convention.range == DepthConvention::Range::zeroToOne;
         View view = frame.view;
         glm::mat4 clipFromView = fromPenumbra(view.clipFromView);
@@ -39,7 +41,7 @@ class HostDepth : public HostTest {
         }
         view.clipFromView = toPenumbra(clipFromView);
         view.depth = form.convention;
-        view.normalTexture = view.receiverTexture = 0;
+        if (!hasNormals) view.normalTexture = view.receiverTexture = 0;
         depth_ = gl::Texture({.width_px = view.width_px,
                               .height_px = view.height_px,
                               .format = form.format,
@@ -84,8 +86,9 @@ class HostDepth : public HostTest {
     }
 
     /// By `exact`, which has no tolerance for a depth that is not what it should be.
-    Image visibility(ShadowInputs inputs, const DepthForm& form, const Range& range) {
-        inputs.view = drawn(inputs, form, range);
+    Image visibility(ShadowInputs inputs, const DepthForm& form, const Range& range,
+                     bool hasNormals = false) {
+        inputs.view = drawn(inputs, form, range, hasNormals);
         VisibilityBuffer out(device(), inputs.view.width_px, inputs.view.height_px);
         workbench().makeTechnique("exact")->render(inputs, out);
         return workbench().frame().readVisibility(out);
@@ -132,6 +135,24 @@ TEST_F(HostDepth, ThatIsNotReversedMakesNoSpeckles) {
             // And, with the near plane at a 350th of the distance, contacts that the depth no longer tells
             // apart.
             EXPECT_LE(lighter, range.near_m > 0.1 ? 4 : 72) << form.name << " from " << range.near_m << " m";
+        }
+    }
+}
+
+// Whatever its depth: a ground that casts shadows nothing but what a ground that casts nothing does.
+TEST_F(HostDepth, OfLargeGroundsShadowsNothing) {
+    for (std::uint32_t seed = 0; seed < 12; ++seed) {
+        const RandomGround ground = makeRandomGround(seed);
+        const auto seen = [&](const Scene& scene, const DepthForm& form) {
+            const float eye_m = glm::length(glm::vec3(scene.at(0).cameras[0].worldFromCamera[3]));
+            return visibility(drawScene(scene, {64, 40}), form, {0.01 * eye_m, 20'000}, true);
+        };
+        for (const DepthForm& form : {best, usual[0], usual[1], usual[4]}) {
+            const Image casting = seen(ground.casting, form), receiving = seen(ground.receiving, form);
+            int darker = 0;
+            for (std::size_t i = 0; i < casting.values.size(); ++i)
+                darker += casting.values[i] < receiving.values[i];
+            EXPECT_EQ(darker, 0) << form.name << ", " << ground.description;
         }
     }
 }

@@ -50,7 +50,10 @@ class HostTest : public ::testing::Test {
     /// A scene's frame, ready for techniques.
     ShadowInputs drawScene(PictureSize size = {96, 72}) { return drawScene("two-boxes", size); }
     ShadowInputs drawScene(const char* builtin, PictureSize size) {
-        scene_ = makeBuiltin(builtin);
+        return drawScene(makeBuiltin(builtin), size);
+    }
+    ShadowInputs drawScene(Scene scene, PictureSize size) {
+        scene_ = std::move(scene);
         moment_ = scene_.at(0);
         workbench_->open(scene_);
         const auto hard = workbench_->makeTechnique("hard");
