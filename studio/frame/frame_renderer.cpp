@@ -127,8 +127,8 @@ LightingConstants FrameRenderer::lightingConstants(const Light& light, bool colo
         .isPoint = light.emission.unit != Emission::Unit::nits && !hasSize(shape),
         .isTextured = light.texture >= 0,
         .isVisibilityColored = coloredVisibility,
-        .planeTolerance = lightPlaneTolerance,
         .size_px = {display_.width_px(), display_.height_px()},
+        .planeTolerance = lightPlaneTolerance,
         .profile = profileConstants(light),
     };
 }

@@ -40,14 +40,14 @@ SHARED_STRUCT LightingConstants {
     bool32 isPoint;  // of size zero: emission in candela or lux
     bool32 isTextured;
     bool32 isVisibilityColored;
-    float planeTolerance;  // up to where a point lies in the plane of a flat light (penumbra/light_plane.h)
     ivec2 size_px;
+    float planeTolerance;  // up to where a point lies in the plane of a flat light (penumbra/light_plane.h)
     ProfileConstants profile;
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(ProfileConstants) == 48);
-static_assert(sizeof(LightingConstants) == 240);
+static_assert(sizeof(LightingConstants) == 256);
 }  // namespace penumbra::studio
 #endif
 #endif
