@@ -78,8 +78,8 @@ def office():
         gltf["nodes"].append({"name": name, "mesh": len(gltf["meshes"]) - 1})
     gltf["cameras"].append({"type": "perspective", "name": "from the door",
                             "perspective": {"yfov": 1.05, "znear": 0.05}})
-    # Looks south-east and down a little: a turn about Y, then about X.
-    yaw, pitch = math.radians(180 + 38), math.radians(-14)
+    # Looks south-west and down a little: a turn about Y, then about X.
+    yaw, pitch = math.radians(180 - 38), math.radians(-14)
     turn_y, turn_x = (0, math.sin(yaw / 2), 0, math.cos(yaw / 2)), (math.sin(pitch / 2), 0, 0, math.cos(pitch / 2))
     rotation = [turn_y[3] * turn_x[0], turn_y[1] * turn_x[3], -turn_y[1] * turn_x[0], turn_y[3] * turn_x[3]]
     gltf["nodes"].append({"name": "from the door", "camera": 0, "translation": [3.3, 1.9, -2.4],
