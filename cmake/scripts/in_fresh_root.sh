@@ -15,6 +15,7 @@ mirror=$(apt-get indextargets --format '$(SITE)' 'Created-By: Packages' 'Label: 
 [ -n "$mirror" ] || { echo "apt knows no Debian mirror: see /etc/apt/sources.list, then apt-get update" >&2; exit 1; }
 
 root=$(mktemp -d "${TMPDIR:-/var/tmp}/penumbra-$suite-XXXXXX")
+chmod 755 "$root"  # apt fetches as a user of its own
 trap 'umount -l "$root/proc" "$root/dev" 2>/dev/null || true; rm -rf --one-file-system "$root"' EXIT
 trap 'exit 130' INT TERM
 debootstrap --variant=minbase "$suite" "$root" "$mirror" >"$root.log" 2>&1 ||
