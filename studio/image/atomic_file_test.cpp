@@ -2,6 +2,7 @@
 #include "studio/image/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -105,6 +106,7 @@ TEST(AtomicFile, ASignalLeavesNoUnfinishedFile) {
     for (int i = 0; i < 20; ++i) {
         const pid_t child = ::fork();
         if (child == 0) {
+            ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // it must not outlive a test that was ended
             std::signal(SIGINT, SIG_DFL);  // which a shell's background jobs ignore
             removeUnfinishedFilesOnSignals();
             const std::string text(1'000'000, 'x');  // so that nearly always one is being written
