@@ -62,6 +62,7 @@ void LightPoints::place(const AreaLight& light, const FrameBinding& binding, int
     if (!isTextured) return;
     const gl::TextureRef picture{.name = light.radianceTexture};
     gl::Pass(radiance_)
+        .bind(binding)
         .constants(PointsConstants{.count = count_})
         .bind("Samples", places_)
         .bind("Radiances", radiances_)
