@@ -231,7 +231,7 @@ std::shared_ptr<const LightProfile> lobedProfile() {
     for (const double c : grid.horizontals_deg)
         for (const double gamma : grid.verticals_deg)
             grid.candela.push_back(
-                gamma > 60 ? 0 : float(500 + 10 * gamma + 200 * std::sin(glm::radians(c + 20))));
+                gamma > 60 ? 0 : float(500 + gamma * (10 + 3 * std::sin(glm::radians(c + 20)))));
     return std::make_shared<LightProfile>(profile);
 }
 
@@ -317,7 +317,7 @@ TEST_F(FrameTest, ProfilesOfAllTypesAreReadAsOnTheCpu) {
         LightProfile profile;
         profile.grid = grid;
         Light light = profiledLight({.shape = LightShape::sphere}, true, 3, 0);
-        for (const glm::vec3 aim : {glm::vec3(0, 0, 0), glm::vec3(2, 0, 1), glm::vec3(-1, 0, 3),
+        for (const glm::vec3 aim : {glm::vec3(0.4f, 0, 0.3f), glm::vec3(2, 0, 1), glm::vec3(-1, 0, 3),
                                     glm::vec3(-4, 0, -2), glm::vec3(1, 3.5, 2)}) {
             light = diskLight("lamp", 1, {0, 3, 0}, aim, 1);
             const Mat4 place = light.shape.worldFromLight;
