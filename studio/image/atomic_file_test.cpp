@@ -104,10 +104,11 @@ TEST(AtomicFile, AWriteThatFailsHalfwayLeavesTheOldFileAndNoOther) {
 TEST(AtomicFile, ASignalLeavesNoUnfinishedFile) {
     const TestFolder folder;
     for (int i = 0; i < 20; ++i) {
+        std::filesystem::remove(folder / "a.txt");  // it tells that the child is ready for signals
         const pid_t child = ::fork();
         if (child == 0) {
             ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // it must not outlive a test that was ended
-            std::signal(SIGINT, SIG_DFL);  // which a shell's background jobs ignore
+            std::signal(SIGINT, SIG_DFL);        // which a shell's background jobs ignore
             removeUnfinishedFilesOnSignals();
             const std::string text(1'000'000, 'x');  // so that nearly always one is being written
             for (;;) writeFileAtomically(folder / "a.txt", text);
