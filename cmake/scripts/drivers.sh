@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 
 rooms=$(for room in src/techniques/*/*_test.cpp; do basename "$(dirname "$room")"; done | sort -u)
-labels="^($(printf '%s|' $rooms contract host library gl geometry steady_state frame | sed 's/|$//'))_test$"
+labels="^($(printf '%s|' $rooms contract properties host library gl geometry steady_state frame | sed 's/|$//'))_test$"
 mkdir -p out
 {
     echo "| driver | day | passed | failed |"
