@@ -172,6 +172,7 @@ void ExactWidths::resolve(const ReceiverBinding& receivers, gl::PassTimers& time
             .bind(receivers)
             .bind("widths", cellWidths_)
             .bind("PenumbraPixels", penumbraPixels_)
+            .bind("CrowdedPixels", crowdedPixels_)
             .dispatchPixels(width_px, height_px);
     }
     {
@@ -191,6 +192,7 @@ void ExactWidths::resolve(const ReceiverBinding& receivers, gl::PassTimers& time
             .bind(receivers)
             .bind("nearestEdges", nearest_)
             .bind("farthestMaps", farthestMap())
+            .bind("PenumbraPixels", penumbraPixels_)
             .bind("CrowdedPixels", crowdedPixels_)
             .dispatchIndirect(crowdedPixels_);
     }

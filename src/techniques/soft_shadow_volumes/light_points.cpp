@@ -64,6 +64,7 @@ void LightPoints::place(const AreaLight& light, const FrameBinding& binding, int
     gl::Pass(radiance_)
         .bind(binding)
         .constants(PointsConstants{.count = count_})
+        .bind(binding)
         .bind("Samples", places_)
         .bind("Radiances", radiances_)
         .bind("radiance", picture)
