@@ -101,6 +101,7 @@ void DepthMap::draw(std::span<const Caster> casters, const LightSpaceScene& scen
                           .colorWrite = false};
     for (const bool hasHoles : {false, true}) {
         gl::Pass pass(hasHoles ? masked_ : opaque_);
+        pass.constants(DepthMapConstants{.light = scene.light});
         pass.bind("Cameras", cameras_).bind("Casters", casters_);
         pass.vertices("layerAndCaster", instances_.buffer(), {.perInstance = true});
         pass.into(framebuffer_, state);

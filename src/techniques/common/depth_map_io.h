@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A caster as the depth pass sees it; one struct for C++ and GLSL (std430).
+// What the depth pass sees of casters and the light; structs for C++ and GLSL (std430, std140).
 #ifndef PENUMBRA_DEPTH_MAP_IO_H
 #define PENUMBRA_DEPTH_MAP_IO_H
 
-#include "src/gl/shared_types.h"
+#include "src/techniques/common/light_io.h"
 
 #ifdef __cplusplus
 namespace penumbra {
@@ -14,6 +14,10 @@ SHARED_STRUCT CasterConstants {
     float alphaFactor;  // of casters with holes
     float alphaCutoff;
     float unused0, unused1;
+};
+
+SHARED_STRUCT DepthMapConstants {
+    LightConstants light;
 };
 
 #ifdef __cplusplus

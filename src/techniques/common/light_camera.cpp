@@ -129,6 +129,11 @@ glm::dmat4 lookAlong(const glm::dvec3& axis, const glm::dvec3& upHint, const glm
     return faceFromLight;
 }
 
+/// A float depth that tends to zero is as precise far away as it is near: the near plane may all but touch
+/// the light, this part of the farthest receiver's distance from it. Nearer points have no direction that
+/// rounding would leave anything of: where a receiver touches the light, corners within an ulp or two of it.
+constexpr double nearestOfFarthest = 1e-9;
+
 /// Grows the window around everything in `polygons` that the camera has in front of it, then by the border.
 /// Empty where nothing is.
 std::optional<LightCamera> fitWindow(LightCamera camera, const Polygons& polygons,
@@ -138,16 +143,23 @@ std::optional<LightCamera> fitWindow(LightCamera camera, const Polygons& polygon
     camera.windowMax = glm::dvec2(-infinity);
     double farthest = 0;
     for (const Polygon& polygon : polygons) {
-        for (const glm::dvec3& posLight : polygon) {
+        for (const glm::dvec3& p : polygon) {
+            farthest = std::max(farthest, glm::length(glm::dvec3(camera.faceFromLight * glm::dvec4(p, 1))));
+        }
+    }
+    if (farthest == 0) return std::nullopt;
+    if (!camera.orthographic) camera.near_m = nearestOfFarthest * farthest;
+
+    const Plane beyondNear = glm::row(camera.faceFromLight, 2) - Plane(0, 0, 0, camera.near_m);
+    for (const Polygon& polygon : polygons) {
+        for (const glm::dvec3& posLight : camera.orthographic ? polygon : clip(polygon, beyondNear)) {
             const glm::dvec3 p = camera.faceFromLight * glm::dvec4(posLight, 1);
-            if (!camera.orthographic && p.z <= 0) continue;
             const glm::dvec2 place = camera.orthographic ? glm::dvec2(p) : glm::dvec2(p) / p.z;
             camera.windowMin = glm::min(camera.windowMin, place);
             camera.windowMax = glm::max(camera.windowMax, place);
-            farthest = std::max(farthest, glm::length(p));
         }
     }
-    if (camera.windowMin.x > camera.windowMax.x || farthest == 0) return std::nullopt;
+    if (camera.windowMin.x > camera.windowMax.x) return std::nullopt;
 
     const glm::dvec2 extent = camera.windowMax - camera.windowMin;
     const double smallest = 1e-6 * (camera.orthographic ? farthest : 1) + 1e-6 * std::max(extent.x, extent.y);
@@ -155,9 +167,6 @@ std::optional<LightCamera> fitWindow(LightCamera camera, const Polygons& polygon
         glm::max(extent, smallest) * (2.0 / std::max(1, options.mapSize_px - 4)) + options.margin;
     camera.windowMin -= border;
     camera.windowMax += border;
-    // A float depth that tends to zero is as precise far away as it is near: the near plane may touch the
-    // light.
-    if (!camera.orthographic) camera.near_m = 1e-9 * farthest;
     return camera;
 }
 
@@ -192,6 +201,62 @@ LightCamera distantCamera(const LightSpaceScene& scene, const LightCameraOptions
     return camera;
 }
 
+/// A window of a grid of sizes and places around the one that is wanted, so that texels stay where they are
+/// while the view moves: at most 5 % wider.
+LightCamera steadied(LightCamera camera, int mapSize_px) {
+    constexpr double sizesAnOctave = 16;
+    for (int axis = 0; axis < 2; ++axis) {
+        const double least = (camera.windowMax[axis] - camera.windowMin[axis]) * (1 + 1.0 / mapSize_px);
+        const double size = std::exp2(std::ceil(sizesAnOctave * std::log2(least)) / sizesAnOctave);
+        const double texel = size / mapSize_px;
+        camera.windowMin[axis] = texel * std::floor(camera.windowMin[axis] / texel);
+        camera.windowMax[axis] = camera.windowMin[axis] + size;
+    }
+    return camera;
+}
+
+/// Orthographic cameras for parts of the receivers whose pixels differ little in size, the smallest pixels
+/// first; one for all where its texels are no larger than the smallest pixel.
+LightCameras splitByPixelSize(const LightCamera& whole, const LightSpaceScene& scene,
+                              const LightCameraOptions& options) {
+    LightCameras cameras;
+    double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+    for (const Polygon& polygon : scene.receivers.polygons) {
+        for (const glm::dvec3& p : polygon) {
+            const double pixel_m = glm::dot(scene.pixelSize_m, glm::dvec4(p, 1));
+            smallest = std::min(smallest, pixel_m);
+            largest = std::max(largest, pixel_m);
+        }
+    }
+    const glm::dvec2 extent = whole.windowMax - whole.windowMin;
+    const double texel_m = std::max(extent.x, extent.y) / options.mapSize_px;
+    // Pixels of a part differ by a factor of 2 at least; the last part takes whatever is nearer.
+    constexpr int mostParts = 6;
+    constexpr double leastRatio = 2;
+    smallest = std::max(smallest, largest * std::pow(leastRatio, -mostParts));
+    const int parts =
+        texel_m <= smallest
+            ? 1
+            : std::max(1, int(std::ceil(std::log(largest / smallest) / std::log(leastRatio) - 1e-9)));
+    if (parts == 1) {
+        cameras.push_back(whole);
+        return cameras;
+    }
+    const double ratio = std::pow(largest / smallest, 1.0 / parts);
+    double from_m = 0;
+    for (int part = 1; part <= parts; ++part) {
+        const double to_m = part == parts ? 2 * largest : smallest * std::pow(ratio, part);
+        const std::array<Plane, 2> planes = {scene.pixelSize_m - Plane(0, 0, 0, from_m),
+                                             Plane(0, 0, 0, to_m) - scene.pixelSize_m};
+        Polygons inPart(gl::LedgerScope::frameMemory());
+        clip(scene.receivers.polygons, planes, inPart);
+        if (auto fitted = fitWindow(whole, inPart, options))
+            cameras.push_back(steadied(*fitted, options.mapSize_px));
+        from_m = to_m;
+    }
+    return cameras;
+}
+
 /// Within five degrees of a direction, one of a few hundred.
 glm::dvec3 onGrid(const glm::dvec3& direction) {
     constexpr double steps = 8;  // from the middle of a cube's face to its side
@@ -215,6 +280,7 @@ glm::dvec3 coneAxis(std::span<const glm::dvec3> directions) {
 
 LightSpaceScene makeLightSpaceScene(const ShadowInputs& inputs, const glm::dmat4& lightFromWorld) {
     LightSpaceScene scene;
+    scene.light = lightConstants(inputs.light);
     double farthest_m = 0;
     const glm::dvec4 viewForwardLight =
         -glm::row(toGlm(inputs.view.viewFromWorld) * glm::inverse(lightFromWorld), 2);
@@ -229,6 +295,12 @@ LightSpaceScene makeLightSpaceScene(const ShadowInputs& inputs, const glm::dmat4
         scene.boxes.push_back(corners);
         scene.lightFromMesh.push_back(lightFromMesh);
     }
+
+    // A pixel is as many metres wide as the picture's clip-space w says.
+    const glm::dmat4 clipFromView = toGlm(inputs.view.clipFromView);
+    scene.pixelSize_m =
+        glm::row(clipFromView * toGlm(inputs.view.viewFromWorld) * glm::inverse(lightFromWorld), 3) *
+        (2 / (std::abs(clipFromView[1][1]) * inputs.view.height_px));
 
     // Intersection of two convex bodies, by its surface: the faces of each, clipped by the other.
     const Frustum frustum = frustumOf(inputs.view, lightFromWorld, 1.001 * farthest_m + 1e-6);
@@ -299,15 +371,25 @@ LightCameras fitLightCameras(const AreaLight& light, const LightSpaceScene& scen
     const Polygons& receivers = scene.receivers.polygons;
     if (receivers.empty()) return cameras;
     if (light.shape == LightShape::distant) {
-        if (auto camera = fitWindow(distantCamera(scene, options), receivers, options))
-            cameras.push_back(*camera);
+        const auto camera = fitWindow(distantCamera(scene, options), receivers, options);
+        if (camera && options.splits) return splitByPixelSize(*camera, scene, options);
+        if (camera) cameras.push_back(*camera);
         return cameras;
     }
 
     std::pmr::vector<glm::dvec3> directions(gl::LedgerScope::frameMemory());
+    double farthest = 0;
     for (const Polygon& polygon : receivers) {
         for (const glm::dvec3& p : polygon) {
-            if (p != options.originLight) directions.push_back(glm::normalize(p - options.originLight));
+            farthest = std::max(farthest, glm::distance(p, options.originLight));
+        }
+    }
+    for (const Polygon& polygon : receivers) {
+        for (const glm::dvec3& p : polygon) {
+            const double distance = glm::distance(p, options.originLight);
+            if (distance > nearestOfFarthest * farthest) {
+                directions.push_back((p - options.originLight) / distance);
+            }
         }
     }
     if (directions.empty()) return cameras;

@@ -12,14 +12,16 @@
 #include "src/gl/gl.h"
 #include "src/techniques/common/inline_vector.h"
 #include "src/techniques/common/light_camera_io.h"
+#include "src/techniques/common/light_io.h"
 
 namespace penumbra {
 
 /// What the light may shadow: the visible part of everything that receives, in light space.
 struct ReceiverRegion {
     /// A face of a hexahedron has four corners, and each of the planes that cut it (a frustum's or a box's
-    /// six, the light's, a cube face's four) adds one at most.
-    using Polygon = InlineVector<glm::dvec3, 16>;
+    /// six, the light's, a cube face's four, the near plane) adds one: 16. Where corners fall together,
+    /// rounding may let a plane cross the border more than twice.
+    using Polygon = InlineVector<glm::dvec3, 24>;
     using Polygons = std::pmr::vector<Polygon>;
     /// The surfaces of convex pieces, each the intersection of a receiver's box with the view frustum.
     Polygons polygons{gl::LedgerScope::frameMemory()};
@@ -34,6 +36,9 @@ struct LightSpaceScene {
     std::pmr::vector<BoxCorners> boxes{gl::LedgerScope::frameMemory()};
     std::pmr::vector<glm::dmat4> lightFromMesh{gl::LedgerScope::frameMemory()};  ///< one a caster
     ReceiverRegion receivers;
+    LightConstants light{};
+    /// Of a place (x, y, z, 1), its dot product is the size of a pixel there, in metres.
+    glm::dvec4 pixelSize_m{0};
 };
 
 /// Computes the above. `lightFromWorld` as from view_constants.h.
@@ -63,14 +68,18 @@ struct LightCameraOptions {
     int mapSize_px = 1024;      ///< windows get a border of two texels
     double margin = 0;          ///< added around each window, in tangents or metres
     bool steadyAxis = false;    ///< from a grid of directions, so that small moves of the view keep the axis
+    /// Distant lights: several cameras, the finest first, where a texel of one would be larger than the
+    /// pixels that it serves.
+    bool splits = false;
 };
 
 /// One, or a cube's faces.
 using LightCameras = InlineVector<LightCamera, 6>;
 
 /// Cameras that together see every receiver: one perspective where its field of view stays below 120 degrees,
-/// faces of a cube around the light where not, one orthographic camera for distant lights. Each window is
-/// fitted to the receivers in it. None where nothing receives.
+/// faces of a cube around the light where not, one orthographic camera for distant lights, or several for
+/// parts of the picture that are alike in the size of their pixels. Each window is fitted to the receivers in
+/// it. None where nothing receives.
 LightCameras fitLightCameras(const AreaLight& light, const LightSpaceScene& scene,
                              const LightCameraOptions& options);
 

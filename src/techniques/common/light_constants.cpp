@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "penumbra/light_plane.h"
+
 namespace penumbra {
 
 glm::dvec2 lightExtent(const AreaLight& light) {
@@ -35,7 +37,8 @@ LightConstants lightConstants(const AreaLight& light) {
             .shape = int(light.shape),
             .isOneSided = isOneSided(light),
             .hasSize = hasSize(light),
-            .isTextured = light.radianceTexture != 0};
+            .isTextured = light.radianceTexture != 0,
+            .planeTolerance = lightPlaneTolerance};
 }
 
 }  // namespace penumbra

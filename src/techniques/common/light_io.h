@@ -18,10 +18,11 @@ const int shapeDistant = 3;
 SHARED_STRUCT LightConstants {
     vec2 halfSize;  // rect: half its width and height, metres; disk and sphere: the radius, twice; distant:
                     // the tangent of half its angle, twice
-    int shape;          // shapeRect, ...
+    int shape;      // shapeRect, ...
     bool32 isOneSided;  // emits along -Z alone
     bool32 hasSize;     // is more than a point or a direction
     bool32 isTextured;
+    float planeTolerance;  // as in penumbra/light_plane.h
 };
 
 #ifdef __cplusplus

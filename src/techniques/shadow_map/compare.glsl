@@ -6,14 +6,15 @@
 // is lit. What remains is a surface that bends within a texel: it rises over the plane by a texel's size times the
 // slopes that meet; the tolerance below covers a right angle lit at 45 degrees. The price is that a blocker less than a
 // texel above its receiver, along the light's axis, casts no shadow there.
+#include "src/techniques/common/light_plane.glsl"
 
 const float toleranceTexels = 1.0;
 const float tolerancePrecision = 4e-6;  // some 32 ulps: positions come out of a 32-bit depth buffer and three transforms
 
-// The light's centre is above the surface's horizon, and the surface on the side to which the light emits.
+// The light's centre is above the surface's horizon, and the surface where the light emits to.
 bool isFacingCenter(Receiver receiver, LightConstants light) {
     vec3 towardsLight = light.shape == shapeDistant ? vec3(0.0, 0.0, 1.0) : -receiver.posLight;
-    return dot(receiver.normalLight, towardsLight) > 0.0 && (!light.isOneSided || receiver.posLight.z < 0.0);
+    return dot(receiver.normalLight, towardsLight) > 0.0 && !isOutsideEmission(receiver.posLight, light);
 }
 
 // Whether a texel that holds `stored` lets the light's centre see the receiver.

@@ -17,7 +17,8 @@ void HardShadowMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     checkInputs(inputs, out);
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
-    const LightCameras cameras = fitLightCameras(inputs.light, scene, {.mapSize_px = mapSize_px_});
+    const LightCameras cameras =
+        fitLightCameras(inputs.light, scene, {.mapSize_px = mapSize_px_, .splits = true});
     {
         const auto pass = timers_.pass("hard/depth map");
         depthMap_.render(inputs.casters, scene, cameras, mapSize_px_);

@@ -54,7 +54,7 @@ void Pcf::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     checkInputs(inputs, out);
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
-    LightCameras cameras = fitLightCameras(inputs.light, scene, {.mapSize_px = mapSize_px_});
+    LightCameras cameras = fitLightCameras(inputs.light, scene, {.mapSize_px = mapSize_px_, .splits = true});
     widenByTexels(cameras, reach_px(), mapSize_px_);
     {
         const auto pass = timers_.pass("pcf/depth map");
