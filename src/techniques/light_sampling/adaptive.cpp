@@ -140,6 +140,7 @@ void AdaptiveLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer&
                       isCenterAlone_ ? 1 : options_.mostSlotsInAll());
     }
     maps_.keep(inputs.casters);
+    view_.fill(inputs.view, frame.lightFromWorld);
     if (isCenterAlone_ || cameras_.faces == 0) {
         renderCenterAlone(frame);
     } else {
@@ -169,8 +170,7 @@ void AdaptiveLightSampling::renderCenterAlone(const Frame& frame) {
 
 void AdaptiveLightSampling::findReceivers(const Frame& frame) {
     const auto pass = timers_.pass("adaptive/receivers");
-    view_.bind(frame.inputs.view, frame.lightFromWorld);
-    receivers_.findAll(frame.inputs, cameras_, maps_, frame.out);
+    receivers_.findAll(frame.inputs, view_, cameras_, maps_, frame.out);
 }
 
 SampleMaps::Needs AdaptiveLightSampling::needs(int depth) const {
@@ -222,8 +222,7 @@ void AdaptiveLightSampling::subdivide(const Frame& frame) {
 
 void AdaptiveLightSampling::compare(const Frame& frame, int stage, int batch, int round) {
     const auto pass = timers_.pass(comparisonPasses[std::size_t(round)]);
-    view_.bind(frame.inputs.view, frame.lightFromWorld);
-    subdivision_.compare(frame.inputs, cameras_, maps_, treeOptions_, stage, batch);
+    subdivision_.compare(frame.inputs, view_, cameras_, maps_, treeOptions_, stage, batch);
 }
 
 void AdaptiveLightSampling::weigh(const Frame& frame) {
@@ -244,9 +243,8 @@ void AdaptiveLightSampling::evaluate(const Frame& frame) {
     if (usesBits()) {
         {
             const auto pass = timers_.pass("adaptive/unsettled receivers");
-            view_.bind(frame.inputs.view, frame.lightFromWorld);
-            subdivision_.bind(4, 5);
-            receivers_.findUnsettled(frame.inputs, cameras_, maps_, frame.out, wasStatic_);
+            receivers_.findUnsettled(frame.inputs, view_, cameras_, maps_, subdivision_, frame.out,
+                                     wasStatic_);
         }
         ofDeepest.tiles = &receivers_.unsettled();
         ofDeepest.asksByQuads = true;
@@ -267,15 +265,13 @@ void AdaptiveLightSampling::evaluate(const Frame& frame) {
 
 void AdaptiveLightSampling::evaluateBatch(const Frame& frame, int stage, int batch, int mostSlots) {
     const auto pass = timers_.pass("adaptive/evaluation");
-    view_.bind(frame.inputs.view, frame.lightFromWorld);
-    if (stage == stageOfDeepest) subdivision_.bind(4, 5);
-    evaluation_.add(frame.inputs, cameras_, evaluationOptions_, maps_,
+    evaluation_.add(frame.inputs, view_, cameras_, evaluationOptions_, maps_,
                     {.stage = stage,
                      .batch = batch,
                      .mostSlots = std::min(maps_.capacity(), mostSlots),
                      .starts = batch == 0,
                      .ends = batch == maps_.batches(mostSlots) - 1,
-                     .usesBits = stage == stageOfDeepest,
+                     .bits = stage == stageOfDeepest ? &subdivision_ : nullptr,
                      .taps = stage == stageOfDeepest ? taps() : 0},
                     frame.out);
 }

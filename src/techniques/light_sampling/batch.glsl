@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which slots of the plan a batch holds, and in which layers their maps are. Includer defines PLAN_BLOCK.
+// Which slots of the plan a batch holds, and in which layers their maps are.
 #include "src/techniques/light_sampling/sampling_io.h"
 
-layout(std430, binding = PLAN_BLOCK) readonly buffer Plan { SamplingPlan plan; };
+layout(std430) readonly buffer Plan { SamplingPlan plan; };
+layout(std140) uniform BatchBlock { BatchConstants batch; };
 
-layout(location = 0) uniform int stage;
-layout(location = 1) uniform int batchStart;  // slots of the stage before this batch
-layout(location = 2) uniform int capacity;    // slots in a batch
-layout(location = 3) uniform int faces;       // maps a slot
-layout(location = 4) uniform bool isResident; // every slot has layers of its own; else batches share them
-
-int firstSlot() { return plan.stages[stage].x + batchStart; }
-int slotCount() { return clamp(plan.stages[stage].y - batchStart, 0, capacity); }
-int layerOf(int slot) { return (isResident ? slot : slot - firstSlot()) * faces; }
+int firstSlot() { return plan.stages[batch.stage].x + batch.slotsBefore; }
+int slotCount() { return clamp(plan.stages[batch.stage].y - batch.slotsBefore, 0, batch.capacity); }
+int layerOf(int slot) { return (batch.isResident ? slot : slot - firstSlot()) * batch.faces; }

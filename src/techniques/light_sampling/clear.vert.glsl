@@ -6,13 +6,12 @@
 // Two triangles over the cells that a map has to show, infinitely far away.
 #include "src/techniques/light_sampling/sampling_io.h"
 
-layout(std430, binding = 2) readonly buffer LayerLists { int layerLists[]; };
-layout(std430, binding = 3) readonly buffer Masks { LayerMask masks[]; };
+layout(std430) readonly buffer Masks { LayerMask masks[]; };
 
-layout(location = 1) uniform int firstInLayerLists;
+in ivec2 layerAndCaster;  // one an instance
 
 void main() {
-    int layer = layerLists[firstInLayerLists + gl_InstanceID];
+    int layer = layerAndCaster.x;
     ivec4 cells = masks[layer].cells;
     const ivec2 corners[6] = ivec2[6](ivec2(0, 0), ivec2(1, 0), ivec2(1, 1), ivec2(0, 0), ivec2(1, 1), ivec2(0, 1));
     ivec2 corner = corners[gl_VertexID];

@@ -8,23 +8,21 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/light_sampling/subdivision_io.h"
 #include "src/techniques/light_sampling/lattice_bits.glsl"
 
-layout(binding = 0, rgba32ui) uniform uimage2D shadowBits;
-layout(location = 16) uniform ivec2 target_px;
-layout(location = 17) uniform bool starts;
-layout(location = 18) uniform int baseDepth;  // of the tree at its start
+layout(rgba32ui) uniform uimage2D shadowBits;
+layout(std140) uniform Constants { CompareConstants constants; };
 
 bool isBase(int vertex) {
-    int step = 16 >> baseDepth;
+    int step = 16 >> constants.baseDepth;
     return (vertex % latticeSide) % step == 0 && (vertex / latticeSide) % step == 0;
 }
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(texel, target_px))) return;
-    ivec2 pixel = ivec2((vec2(texel) + 0.5) * vec2(view.size_px.xy) / vec2(target_px));
+    if (any(greaterThanEqual(texel, constants.target_px))) return;
+    ivec2 pixel = ivec2((vec2(texel) + 0.5) * vec2(view.size_px.xy) / vec2(constants.target_px));
     uint words[3] = uint[3](0u, 0u, 0u);
     bool isBaseShadowed = false;
-    if (!starts) {
+    if (!constants.starts) {
         uvec4 before = imageLoad(shadowBits, texel);
         words = uint[3](before.x, before.y, before.z);
         isBaseShadowed = before.w != 0u;

@@ -12,20 +12,12 @@ layout(local_size_x = 64) in;
 #include "src/techniques/light_sampling/subdivision_io.h"
 #include "src/techniques/light_sampling/lattice_bits.glsl"
 
-layout(std430, binding = 0) buffer SubdivisionBlock { Subdivision subdivision; };
-layout(std430, binding = 1) buffer Plan { SamplingPlan plan; };
-layout(std430, binding = 2) buffer Slots { int sampleOfSlot[]; };
+layout(std430) buffer SubdivisionBlock { Subdivision subdivision; };
+layout(std430) buffer Plan { SamplingPlan plan; };
+layout(std430) buffer Slots { int sampleOfSlot[]; };
 #include "src/techniques/light_sampling/subdivision.glsl"
 
-layout(location = 0) uniform int round;       // -1: starts the tree
-layout(location = 1) uniform int maxSamples;
-layout(location = 2) uniform uint tolerated;  // failing fragments
-layout(location = 3) uniform int minDepth;    // every quad above it is split
-layout(location = 4) uniform int maxDepth;
-layout(location = 5) uniform int baseDepth;   // to which the tree is split at the start
-layout(location = 6) uniform bool isCoherent; // the last frame's tree is there to start from
-layout(location = 7) uniform bool isOneLevelARound;
-layout(location = 8) uniform ivec2 target_px; // of the comparison
+layout(std140) uniform Constants { DecideConstants options; };
 
 shared uint wish[64];
 shared int ranked[64];
@@ -38,23 +30,23 @@ int vertexAt(ivec2 place) { return place.y * latticeSide + place.x; }
 bool isCoarse(int vertex) { return (vertex % latticeSide) % 2 == 0 && (vertex / latticeSide) % 2 == 0; }
 
 bool isBase(int vertex) {
-    int step = 16 >> baseDepth;
+    int step = 16 >> options.baseDepth;
     return (vertex % latticeSide) % step == 0 && (vertex / latticeSide) % step == 0;
 }
 
 bool isInLastTree(int vertex) {
-    if (!isCoherent || !isCoarse(vertex)) return false;
+    if (!options.isCoherent || !isCoarse(vertex)) return false;
     BitPlace place = bitPlace(vertex);
     return (subdivision.coarseVertices[place.word] & place.mask) != 0u;
 }
 
 void setGroups(bool any) {
-    plan.compareGroups = any ? uvec4((target_px + 7) / 8, 1, 0) : uvec4(0u);
-    plan.examineGroups = any ? uvec4((target_px + 15) / 16, 1, 0) : uvec4(0u);
+    plan.compareGroups = any ? uvec4((options.target_px + 7) / 8, 1, 0) : uvec4(0u);
+    plan.examineGroups = any ? uvec4((options.target_px + 15) / 16, 1, 0) : uvec4(0u);
 }
 
 void startTree() {
-    bool compares = baseDepth < maxDepth;
+    bool compares = options.baseDepth < options.maxDepth;
     int slots = 0;
     uint coarse[3] = uint[3](0u, 0u, 0u);
     for (int vertex = 0; vertex < latticeVertices; ++vertex) {
@@ -70,17 +62,17 @@ void startTree() {
     }
     for (int i = 0; i < splittableQuads; ++i) {
         subdivision.failing[i] = 0u;
-        subdivision.split[i] = i < quadIndex(baseDepth, ivec2(0)) ? 1u : 0u;
+        subdivision.split[i] = i < quadIndex(options.baseDepth, ivec2(0)) ? 1u : 0u;
     }
     int before = 0;
     for (int level = 0; level <= deepestLevel; ++level) {
         int side = (1 << level) + 1;
-        subdivision.samplesOfLevel[level] = level <= baseDepth ? uint(side * side - before) : 0u;
+        subdivision.samplesOfLevel[level] = level <= options.baseDepth ? uint(side * side - before) : 0u;
         before = side * side;
     }
     subdivision.coarseVertices = coarse;
-    for (int y = 0; y < 8; ++y) subdivision.deepestRows[y] = baseDepth == deepestLevel ? 255u : 0u;
-    subdivision.decidedLevels = baseDepth;
+    for (int y = 0; y < 8; ++y) subdivision.deepestRows[y] = options.baseDepth == deepestLevel ? 255u : 0u;
+    subdivision.decidedLevels = options.baseDepth;
     subdivision.reachedMaximum = subdivision.errorBound = 0u;
     for (int i = 0; i < maxStages; ++i) plan.stages[i] = ivec4(slots, 0, 1, 1);
     plan.stages[stageOfAll] = plan.stages[compares ? 0 : stageOfDeepest] = ivec4(0, slots, 1, 1);
@@ -90,12 +82,12 @@ void startTree() {
 
 void main() {
     int index = int(gl_LocalInvocationIndex);
-    if (round < 0) {
+    if (options.round < 0) {
         if (index == 0) startTree();
         return;
     }
     int firstLevel = subdivision.decidedLevels;
-    if (firstLevel == maxDepth) return;  // an earlier round has decided all
+    if (firstLevel == options.maxDepth) return;  // an earlier round has decided all
     for (int i = index; i < latticeVertices; i += 64) {
         slotOfVertex[i] = subdivision.slotOfVertex[i];
         BitPlace place = bitPlace(i);
@@ -105,13 +97,13 @@ void main() {
     int first = plan.stages[stageOfAll].y;
     int slots = first;
     barrier();
-    for (int level = firstLevel; level < maxDepth; ++level) {
+    for (int level = firstLevel; level < options.maxDepth; ++level) {
         // Quads in the order of need: if samples run out, they went where most fragments fail.
         int side = 1 << level;
         bool isQuad = goesOn && index < side * side;
         ivec2 quad = ivec2(index % side, index / side);
         uint count = isQuad ? subdivision.failing[quadIndex(level, quad)] : 0u;
-        bool wants = count > tolerated || level < minDepth;
+        bool wants = count > options.tolerated || level < options.minDepth;
         wish[index] = isQuad && quadExists(level, quad) && wants ? count + 1u : 0u;
         ranked[index] = -1;
         barrier();
@@ -131,7 +123,7 @@ void main() {
                 const ivec2 steps[5] = ivec2[5](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(2, 1), ivec2(1, 2));
                 int needed = 0;
                 for (int j = 0; j < 5; ++j) needed += int(!isInTree[vertexAt(place + halfSide * steps[j])]);
-                if (used + needed > maxSamples) {
+                if (used + needed > options.maxSamples) {
                     subdivision.reachedMaximum = 1u;
                     continue;
                 }
@@ -143,7 +135,7 @@ void main() {
                     int vertex = vertexAt(place + halfSide * steps[j]);
                     if (isInTree[vertex]) continue;
                     isInTree[vertex] = true;
-                    if (level + 1 < maxDepth) {  // else nothing compares it
+                    if (level + 1 < options.maxDepth) {  // else nothing compares it
                         BitPlace bit = bitPlace(vertex);
                         subdivision.coarseVertices[bit.word] |= bit.mask;
                     }
@@ -154,7 +146,7 @@ void main() {
                 }
             }
             subdivision.decidedLevels = level + 1;
-            goesOn = slots == slotsBefore && !isOneLevelARound;
+            goesOn = slots == slotsBefore && !options.isOneLevelARound;
         }
         memoryBarrierBuffer();
         barrier();
@@ -163,11 +155,11 @@ void main() {
         int decided = subdivision.decidedLevels;
         for (int i = quadIndex(decided, ivec2(0)); i < splittableQuads; ++i) subdivision.failing[i] = 0u;
         // What the last split brings is not compared.
-        bool isDeepest = decided == maxDepth;
-        plan.stages[isDeepest ? stageOfDeepest : round + 1] = ivec4(first, slots - first, 1, 1);
+        bool isDeepest = decided == options.maxDepth;
+        plan.stages[isDeepest ? stageOfDeepest : options.round + 1] = ivec4(first, slots - first, 1, 1);
         plan.stages[stageOfAll] = ivec4(0, slots, 1, 1);
         if (!isDeepest) plan.stages[stageOfCoarse] = plan.stages[stageOfAll];
         setGroups(!isDeepest);
-        if (decided < maxDepth || maxDepth == deepestLevel) subdivision.errorBound = 0u;  // told anew of the finer tree
+        if (decided < options.maxDepth || options.maxDepth == deepestLevel) subdivision.errorBound = 0u;  // told anew of the finer tree
     }
 }

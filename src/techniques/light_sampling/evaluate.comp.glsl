@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
 // Sums what the receivers see of a batch's samples (equation 2, with weights). Variants of sample_test.glsl, and
-// COLORED, where the light is textured; BITS, where the comparison left the shadow values of coarse samples, and those
-// of the deepest level are looked up only where the corners of their quads disagree; SMOOTH, where samples that
-// disagree are asked for their cells.
+// COLORED, where the light is textured; PARTIAL, where the sum takes several passes; BITS, where the comparison left the
+// shadow values of coarse samples, and those of the deepest level are looked up only where the corners of their quads
+// disagree; SMOOTH, where samples that disagree are asked for their cells.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/common/view.glsl"
 #include "src/techniques/light_sampling/sample_test.glsl"
 #include "src/techniques/light_sampling/value.glsl"
 
-layout(binding = 0) uniform writeonly image2D visibility;
-layout(binding = 1, FORMAT) uniform image2D seenSoFar;
-layout(binding = 2, FORMAT) uniform image2D wholeSoFar;
+uniform writeonly image2D visibility;
+#ifdef PARTIAL
+layout(FORMAT) uniform image2D seenSoFar;
+layout(FORMAT) uniform image2D wholeSoFar;
+#endif
 
 #ifdef BITS
 #include "src/techniques/light_sampling/subdivision_io.h"
 #include "src/techniques/light_sampling/lattice_bits.glsl"
-layout(binding = 4) uniform usampler2D shadowBits;
-layout(std430, binding = 5) readonly buffer SubdivisionBlock { Subdivision subdivision; };
+uniform usampler2D shadowBits;
+layout(std430) readonly buffer SubdivisionBlock { Subdivision subdivision; };
 #endif
 
-layout(std430, binding = 4) readonly buffer Order { int slotInOrder[]; };
+layout(std430) readonly buffer Order { int slotInOrder[]; };
 
-layout(location = 16) uniform ivec4 range;  // xy: slots of the batch to sum; z: starts the sum; w: ends it
+layout(std140) uniform Constants { EvaluateConstants constants; };
 
 #ifdef BITS
 #include "src/techniques/light_sampling/settled.glsl"
@@ -35,17 +37,23 @@ layout(location = 16) uniform ivec4 range;  // xy: slots of the batch to sum; z:
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
-    bool starts = range.z == 1, ends = range.w == 1;
+#ifdef PARTIAL
+    bool starts = constants.starts, ends = constants.ends;
+#else
+    const bool starts = true, ends = true;
+#endif
     Receiver receiver;
     if (!loadReceiver(pixel, receiver)) {
         if (ends) imageStore(visibility, pixel, vec4(1.0));
         return;
     }
     VALUE seen = VALUE(0.0), whole = VALUE(0.0);
+#ifdef PARTIAL
     if (!starts) {
         seen = FROM(imageLoad(seenSoFar, pixel));
         whole = FROM(imageLoad(wholeSoFar, pixel));
     }
+#endif
     if (!isBehindLight(receiver)) {
         Lookup lookup = makeLookup(receiver);
 #ifdef BITS
@@ -81,10 +89,10 @@ void main() {
         }
 #endif
 #endif
-        bool isInOrder = isResident && stage == stageOfAll;
+        bool isInOrder = batch.isResident && batch.stage == stageOfAll;
         int first = firstSlot();
-        int end = min(isInOrder ? plan.evaluated.x : slotCount(), range.y);
-        for (int i = range.x; i < end; ++i) {
+        int end = min(isInOrder ? plan.evaluated.x : slotCount(), constants.endSlot);
+        for (int i = constants.firstSlot; i < end; ++i) {
             int slot = isInOrder ? slotInOrder[i] : first + i;
             int vertex = sampleOfSlot[slot];
             float count = countOf(samples[vertex], receiver);
@@ -104,14 +112,16 @@ void main() {
                 continue;
             }
 #endif
-            seen += weight * (faces > 0 ? sampleLit(layerOf(slot), lookup) : 1.0);
+            seen += weight * (batch.faces > 0 ? sampleLit(layerOf(slot), lookup) : 1.0);
         }
     }
+#ifdef PARTIAL
     if (!ends) {
         imageStore(seenSoFar, pixel, TO(seen));
         imageStore(wholeSoFar, pixel, TO(whole));
         return;
     }
+#endif
     // Everything seen sums up the same addends as everything there is: the quotient is 1 exactly.
 #ifdef COLORED
     vec3 quotient = vec3(whole.r > 0.0 ? seen.r / whole.r : 0.0, whole.g > 0.0 ? seen.g / whole.g : 0.0,

@@ -34,12 +34,14 @@ class SampleLookup {
         bool colored = false;  ///< sums a channel each
         bool bits = false;     ///< reads what was compared from shadow bits
         bool smooth = false;   ///< filters between samples that disagree
+        bool partial = false;  ///< adds to a sum that takes several passes
         auto operator<=>(const Wishes&) const = default;
     };
 
-    /// Makes the variant for this light current and sets uniforms 3 and 5 to 15 of sample_test.glsl.
-    void use(const AreaLight& light, const SampleCameras& cameras, const EvaluationOptions& options,
-             const Wishes& wishes);
+    /// The variant for this light; passes of it bind this object, for what sample_test.glsl needs.
+    const gl::Program& prepare(const AreaLight& light, const SampleCameras& cameras,
+                               const EvaluationOptions& options, const Wishes& wishes);
+    void bindTo(gl::Pass& pass) const { pass.bind("LookupBlock", constants_); }
 
   private:
     struct Variant {
@@ -53,7 +55,10 @@ class SampleLookup {
     Device::Internals& device_;
     std::string file_;
     std::map<Variant, gl::Program> programs_;
+    gl::ConstantBuffer<LookupConstants> constants_;
 };
+
+class SubdivisionPasses;
 
 class SampleEvaluation {
   public:
@@ -63,15 +68,15 @@ class SampleEvaluation {
     struct Batch {
         int stage = stageOfAll;
         int batch = 0;
-        int mostSlots = 1;                ///< it can hold
-        bool starts = true, ends = true;  ///< the sum
-        bool usesBits = false;            ///< all that was compared comes from shadow bits at texture unit 4
+        int mostSlots = 1;                        ///< it can hold
+        bool starts = true, ends = true;          ///< the sum
+        const SubdivisionPasses* bits = nullptr;  ///< where all that was compared comes from; or null
         int taps = 0;  ///< of the filter between samples that disagree, a power of two; 0: none
     };
 
-    /// Adds a batch to the sums. Expects the view to be bound.
-    void add(const ShadowInputs& inputs, const SampleCameras& cameras, const EvaluationOptions& options,
-             const SampleMaps& maps, const Batch& batch, VisibilityBuffer& out);
+    /// Adds a batch to the sums.
+    void add(const ShadowInputs& inputs, const ViewBinding& view, const SampleCameras& cameras,
+             const EvaluationOptions& options, SampleMaps& maps, const Batch& batch, VisibilityBuffer& out);
 
   private:
     SampleLookup lookup_;

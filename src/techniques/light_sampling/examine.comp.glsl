@@ -8,14 +8,12 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "src/techniques/light_sampling/subdivision_io.h"
 #include "src/techniques/light_sampling/lattice_bits.glsl"
 
-layout(binding = 0) uniform usampler2D shadowBits;
-layout(std430, binding = 0) buffer SubdivisionBlock { Subdivision subdivision; };
+uniform usampler2D shadowBits;
+layout(std430) buffer SubdivisionBlock { Subdivision subdivision; };
 #include "src/techniques/light_sampling/examine.glsl"
 #include "src/techniques/light_sampling/subdivision.glsl"
 
-layout(location = 0) uniform int maxDepth;
-layout(location = 1) uniform float maxError;  // 0: the paper's test decides
-layout(location = 2) uniform float cellError; // of what the corners of a quad say of it, over its area
+layout(std140) uniform Constants { ExamineConstants options; };
 
 shared uint failing[splittableQuads];
 shared uint known[15];   // quads to count for: level l's rows from 2^l - 1 on, bit x: left edge in column x
@@ -38,7 +36,7 @@ float errorOf(uvec4 bits) {
         }
         error += (float(mixed) + 0.75 * float(quartered)) / float(1 << (2 * l));
     }
-    return cellError * error;
+    return options.cellError * error;
 }
 
 bool isKnown(ivec2 place) { return subdivision.slotOfVertex[place.y * latticeSide + place.x] >= 0; }
@@ -55,7 +53,7 @@ void listQuads(int index, int decided) {
     for (int x = 0; x < (1 << level); ++x) {
         ivec2 quad = ivec2(x, index - (1 << level) + 1);
         uint bit = 1u << (x * (8 >> level));
-        if (level >= decided && level < maxDepth && areCornersKnown(level, quad)) knownRow |= bit;
+        if (level >= decided && level < options.maxDepth && areCornersKnown(level, quad)) knownRow |= bit;
         if (level > decided || !quadExists(level, quad)) continue;
         bool isSplit = subdivision.split[quadIndex(level, quad)] != 0u;
         if (!isSplit) leafRow |= bit;
@@ -78,22 +76,22 @@ void main() {
     uvec4 bits = all(lessThan(texel, size_px)) ? texelFetch(shadowBits, texel, 0) : uvec4(0u);
     if ((bits.x | bits.y | bits.z) != 0u) {
         bool wantsAll = false;
-        if (maxError > 0.0) {
+        if (options.maxError > 0.0) {
             float error = errorOf(bits);
-            wantsAll = error > maxError;
+            wantsAll = error > options.maxError;
             atomicMax(largestError, floatBitsToUint(error));
         }
         uvec4 ring[9];
         for (int i = 0; i < 9; ++i) {
             ring[i] = texelFetch(shadowBits, clamp(texel + ivec2(i % 3, i / 3) - 1, ivec2(0), size_px - 1), 0);
         }
-        for (int level = decided; level < maxDepth; ++level) {
+        for (int level = decided; level < options.maxDepth; ++level) {
             int stride = 8 >> level, side = 1 << level;
             for (int y = 0; y < side; ++y) {
                 uint counts = known[side - 1 + y];
                 if (counts == 0u) continue;
                 uint fails = wantsAll         ? penumbraOf(sumsOfRow(bits, y * stride, stride))
-                             : maxError > 0.0 ? 0u
+                             : options.maxError > 0.0 ? 0u
                                               : failingInRow(ring, y * stride, stride);
                 fails &= counts;
                 while (fails != 0u) {

@@ -4,19 +4,16 @@
 // layers that have to show anything. Variant LAYER_BY_LAYER: a command a caster and layer instead of one a caster.
 layout(local_size_x = 64) in;
 
-#define PLAN_BLOCK 0
 #include "src/techniques/light_sampling/batch.glsl"
 
-layout(std430, binding = 1) readonly buffer LayerCameras { LightCameraConstants layerCameras[]; };
-layout(std430, binding = 2) readonly buffer Masks { LayerMask masks[]; };
-layout(std430, binding = 3) readonly buffer Boxes { CullBox boxes[]; };
-layout(std430, binding = 4) writeonly buffer LayerLists { int layerLists[]; };
-layout(std430, binding = 5) writeonly buffer Commands { DrawCommand commands[]; };
-layout(std430, binding = 6) readonly buffer RedrawBlock { RedrawGroups redraw; };
+layout(std430) readonly buffer LayerCameras { LightCameraConstants layerCameras[]; };
+layout(std430) readonly buffer Masks { LayerMask masks[]; };
+layout(std430) readonly buffer Boxes { CullBox boxes[]; };
+layout(std430) writeonly buffer Instances { ivec2 layerAndCaster[]; };
+layout(std430) writeonly buffer Commands { DrawCommand commands[]; };
+layout(std430) readonly buffer RedrawBlock { RedrawGroups redraw; };
 
-layout(location = 5) uniform int casterCount;
-layout(location = 6) uniform int layersInAll;
-layout(location = 7) uniform bool isKept;  // maps of the last frame are, unless receivers have moved
+layout(std140) uniform Constants { GatherConstants constants; };
 
 shared int listed;
 
@@ -56,17 +53,23 @@ bool hasToShow(int layer, int caster) {
     return false;
 }
 
+// Clearing draws arrays, which have no base vertex: there the first instance is the fourth number.
+DrawCommand command(bool isClear, int count, int instances, int firstInstance) {
+    return DrawCommand(count, instances, 0, isClear ? firstInstance : 0, firstInstance);
+}
+
 void main() {
     int caster = int(gl_WorkGroupID.x);
     int baseLayer = layerOf(firstSlot());
-    int layers = isKept && redraw.slots.x == 0u ? 0 : slotCount() * faces;
-    bool isClear = caster == casterCount;
+    int layers = constants.isKept && redraw.slots.x == 0u ? 0 : slotCount() * batch.faces;
+    bool isClear = caster == constants.casterCount;
     int indices = isClear ? 6 : int(boxes[caster].draw.x);
+    int firstInstance = caster * constants.layersInAll;
     if (gl_LocalInvocationIndex == 0u) listed = 0;
     barrier();
 
 #ifdef LAYER_BY_LAYER
-    for (int layer = int(gl_LocalInvocationIndex); layer < layersInAll; layer += 64) {
+    for (int layer = int(gl_LocalInvocationIndex); layer < constants.layersInAll; layer += 64) {
         bool isUsed = layer >= baseLayer && layer < baseLayer + layers;
 #else
     for (int layer = baseLayer + int(gl_LocalInvocationIndex); layer < baseLayer + layers; layer += 64) {
@@ -74,14 +77,14 @@ void main() {
 #endif
         bool isShown = isUsed && indices != 0 && masks[layer].cells.z >= 0 && (isClear || hasToShow(layer, caster));
 #ifdef LAYER_BY_LAYER
-        layerLists[caster * layersInAll + layer] = layer;
-        commands[caster * layersInAll + layer] = DrawCommand(indices, isShown ? 1 : 0, 0, 0, 0);
+        layerAndCaster[firstInstance + layer] = ivec2(layer, caster);
+        commands[firstInstance + layer] = command(isClear, indices, isShown ? 1 : 0, firstInstance + layer);
 #else
-        if (isShown) layerLists[caster * layersInAll + atomicAdd(listed, 1)] = layer;
+        if (isShown) layerAndCaster[firstInstance + atomicAdd(listed, 1)] = ivec2(layer, caster);
 #endif
     }
     barrier();
 #ifndef LAYER_BY_LAYER
-    if (gl_LocalInvocationIndex == 0u) commands[caster] = DrawCommand(indices, listed, 0, 0, 0);
+    if (gl_LocalInvocationIndex == 0u) commands[caster] = command(isClear, indices, listed, firstInstance);
 #endif
 }

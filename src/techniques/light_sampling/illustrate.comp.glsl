@@ -6,13 +6,13 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/light_sampling/subdivision_io.h"
 #include "src/techniques/light_sampling/lattice_bits.glsl"
 
-layout(binding = 0) uniform usampler2D shadowBits;
-layout(std430, binding = 0) readonly buffer SubdivisionBlock { Subdivision subdivision; };
+uniform usampler2D shadowBits;
+layout(std430) readonly buffer SubdivisionBlock { Subdivision subdivision; };
 #include "src/techniques/light_sampling/examine.glsl"
 #include "src/techniques/light_sampling/subdivision.glsl"
 
-layout(binding = 0, rgba8) uniform writeonly image2D sumsPicture;
-layout(binding = 1, rgba8) uniform writeonly image2D failingPicture;
+layout(rgba8) uniform writeonly image2D sumsPicture;
+layout(rgba8) uniform writeonly image2D failingPicture;
 
 void main() {
     ivec2 size_px = textureSize(shadowBits, 0);

@@ -5,10 +5,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/light_sampling/subdivision_io.h"
 
-layout(std430, binding = 0) readonly buffer SubdivisionBlock { Subdivision subdivision; };
+layout(std430) readonly buffer SubdivisionBlock { Subdivision subdivision; };
 #include "src/techniques/light_sampling/subdivision.glsl"
 
-layout(binding = 0, rgba8) uniform writeonly image2D picture;
+layout(rgba8) uniform writeonly image2D picture;
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);

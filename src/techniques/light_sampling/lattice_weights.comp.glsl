@@ -6,17 +6,16 @@ layout(local_size_x = 320) in;
 #include "src/techniques/light_sampling/sampling_io.h"
 #include "src/techniques/light_sampling/subdivision_io.h"
 
-layout(std430, binding = 0) buffer SubdivisionBlock { Subdivision subdivision; };
-layout(std430, binding = 1) buffer Samples { LightSample samples[]; };
+layout(std430) buffer SubdivisionBlock { Subdivision subdivision; };
+layout(std430) buffer Samples { LightSample samples[]; };
 // A textured light's radiance over 34 x 34 cells, in `weight.rgb`: a quarter of what each vertex stands for at most.
-layout(std430, binding = 2) readonly buffer Cells { LightSample cells[]; };
+layout(std430) readonly buffer Cells { LightSample cells[]; };
 #include "src/techniques/light_sampling/subdivision.glsl"
 
-layout(std430, binding = 3) writeonly buffer Order { int slotInOrder[]; };
-layout(std430, binding = 4) buffer Plan { SamplingPlan plan; };
+layout(std430) writeonly buffer Order { int slotInOrder[]; };
+layout(std430) buffer Plan { SamplingPlan plan; };
 
-layout(location = 0) uniform bool usesPaperWeights;
-layout(location = 1) uniform bool isTextured;
+layout(std140) uniform Constants { LatticeWeightsConstants constants; };
 
 shared bool isUsed[latticeVertices];
 
@@ -61,13 +60,13 @@ Cell cellOf(int vertex) {
             float part = float((high.x - low.x) * (high.y - low.y)) / (34.0 * 34.0);
             area += part;
             moment += part * (0.5 * vec2(low + high) - vec2(2 * place + 1)) / 34.0;
-            if (isTextured) radiance += radianceOf(low, high);
+            if (constants.isTextured) radiance += radianceOf(low, high);
         }
     }
     // Equation 3, its depth being that of the finest quad at the sample: so the weights of an even subdivision add up
     // to 1, as the paper says they do.
     vec2 middle = area > 0.0 ? moment / area : vec2(0.0);
-    if (usesPaperWeights && area > 0.0) {
+    if (constants.usesPaperWeights && area > 0.0) {
         float paper = 1.0 / float(((1 << deepest) + 1) * ((1 << deepest) + 1));
         radiance *= paper / area;
         area = paper;

@@ -6,25 +6,18 @@
 // receiver mask, with depth). A group a slot.
 layout(local_size_x = 256) in;
 
-#define PLAN_BLOCK 0
 #include "src/techniques/light_sampling/batch.glsl"
 #include "src/techniques/light_sampling/subdivision_io.h"
 
-layout(std430, binding = 1) readonly buffer Slots { int sampleOfSlot[]; };
-layout(std430, binding = 2) readonly buffer Cameras { SampleCamera cameras[]; };
-layout(std430, binding = 3) readonly buffer Samples { LightSample samples[]; };
-layout(std430, binding = 4) readonly buffer Tiles { ReceiverTile tiles[]; };
-layout(std430, binding = 5) writeonly buffer LayerTaps { LayerTap layerTaps[]; };
-layout(std430, binding = 6) writeonly buffer LayerCameras { LightCameraConstants layerCameras[]; };
-layout(std430, binding = 7) writeonly buffer Masks { LayerMask masks[]; };
+layout(std430) readonly buffer Slots { int sampleOfSlot[]; };
+layout(std430) readonly buffer Cameras { SampleCamera cameras[]; };
+layout(std430) readonly buffer Samples { LightSample samples[]; };
+layout(std430) readonly buffer Tiles { ReceiverTile tiles[]; };
+layout(std430) writeonly buffer LayerTaps { LayerTap layerTaps[]; };
+layout(std430) writeonly buffer LayerCameras { LightCameraConstants layerCameras[]; };
+layout(std430) writeonly buffer Masks { LayerMask masks[]; };
 
-layout(location = 5) uniform int tileCount;          // negative: maps are to show everything
-layout(location = 6) uniform bool isCube;
-layout(location = 7) uniform float reach;            // of the filter between samples, in sides of the unit square
-layout(location = 8) uniform float nearestBlocker_m; // along the axis from the plane of any sample; distant: depth
-layout(location = 9) uniform int mapSize_px;
-layout(location = 10) uniform mat3 face0FromLight;
-layout(location = 13) uniform bool asksByQuads;      // tiles say which quads of level 3 they ask for
+layout(std140) uniform Constants { PlaceLayersConstants needs; };
 
 shared uint farthest[maskSide * maskSide];
 shared uint alongRows[maskSide * maskSide];
@@ -36,7 +29,7 @@ const float beyond = 3e38;  // of every receiver
 // Quads of level 3 that have the vertex on their rim or within, as ReceiverTile has them; all for a coarse one.
 uvec2 quadsOf(int vertex) {
     ivec2 place = ivec2(vertex % latticeSide, vertex / latticeSide);
-    if (!asksByQuads || all(equal(place % 2, ivec2(0)))) return uvec2(0u);
+    if (!needs.asksByQuads || all(equal(place % 2, ivec2(0)))) return uvec2(0u);
     ivec2 low = max((place - 1) / 2, ivec2(0)), high = min(place / 2, ivec2(7));
     uvec2 quads = uvec2(0u);
     for (int y = low.y; y <= high.y; ++y) {
@@ -50,23 +43,23 @@ uvec2 quadsOf(int vertex) {
 // (step + (receiver - step) b / z) seen from the sample. That is off by (1 - b / z) (step.xy - tan step.z) / (the place's
 // depth), which is largest for the nearest blocker and the farthest receiver that there are.
 float reachInMap(LightSample light, SampleCamera camera, bool isOrthographic, float farthest_m) {
-    if (reach == 0.0) return 0.0;
+    if (needs.reach == 0.0) return 0.0;
     float most = 0.0;
     for (int i = 0; i < 4; ++i) {
-        vec2 at = reach * vec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1);
+        vec2 at = needs.reach * vec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1);
         vec3 along = at.x * light.spanU.xyz + at.y * light.spanV.xyz;
         if (isOrthographic) {
-            vec3 beside = face0FromLight * (light.place.xyz + along);
+            vec3 beside = mat3(needs.face0FromLight) * (light.place.xyz + along);
             if (beside.z > -0.02) return beyond;
             float slope = length(beside.xy / beside.z - camera.tap.origin.xy);
-            most = max(most, slope * max(farthest_m - nearestBlocker_m, 0.0));
+            most = max(most, slope * max(farthest_m - needs.nearestBlocker_m, 0.0));
         } else {
-            vec3 step = face0FromLight * along;
-            float depth = nearestBlocker_m - abs(step.z);
+            vec3 step = mat3(needs.face0FromLight) * along;
+            float depth = needs.nearestBlocker_m - abs(step.z);
             if (!(depth > 0.0)) return beyond;
             vec2 window = max(abs(camera.tap.window.xy), abs(camera.tap.window.xy + 1.0 / camera.tap.window.zw));
             float tangent = (length(step.xy) + length(window) * abs(step.z)) / depth;
-            most = max(most, tangent * max(1.0 - nearestBlocker_m / farthest_m, 0.0));
+            most = max(most, tangent * max(1.0 - needs.nearestBlocker_m / farthest_m, 0.0));
         }
     }
     return most;
@@ -86,7 +79,7 @@ void addTile(ReceiverTile tile, SampleCamera camera, bool isOrthographic) {
         from = low.xy - max(a, b);
         to = high.xy - min(a, b);
     } else {
-        if (isCube) {
+        if (needs.isCube) {
             mat3 turn = mat3(camera.camera.faceFromLight);
             vec3 middle = turn * (0.5 * (low + high));
             vec3 extent = mat3(abs(turn[0]), abs(turn[1]), abs(turn[2])) * (0.5 * (high - low));
@@ -105,7 +98,7 @@ void addTile(ReceiverTile tile, SampleCamera camera, bool isOrthographic) {
         }
     }
     // Two texels make up for rounding and for kernels of three.
-    float slack = 2.0 / float(mapSize_px);
+    float slack = 2.0 / float(needs.mapSize_px);
     vec2 uvMin = (from - windowMin) * camera.tap.window.zw - slack, uvMax = (to - windowMin) * camera.tap.window.zw + slack;
     ivec2 first = ivec2(floor(clamp(uvMin, 0.0, 1.0) * float(maskSide)));
     ivec2 last = min(ivec2(floor(clamp(uvMax, 0.0, 1.0) * float(maskSide))), maskSide - 1);
@@ -123,7 +116,7 @@ void addTile(ReceiverTile tile, SampleCamera camera, bool isOrthographic) {
 void placeLayer(int layer, int vertex, SampleCamera camera) {
     int index = int(gl_LocalInvocationIndex);
     bool isOrthographic = camera.camera.depth.z == 1.0;
-    bool showsAll = tileCount < 0;
+    bool showsAll = needs.tileCount < 0;
     for (int i = index; i < maskSide * maskSide; i += 256) farthest[i] = showsAll ? orderedBits(beyond) : 0u;
     if (index == 0) {
         layerCameras[layer] = camera.camera;
@@ -133,7 +126,7 @@ void placeLayer(int layer, int vertex, SampleCamera camera) {
     }
     barrier();
     uvec2 quads = quadsOf(vertex);
-    for (int i = index; i < tileCount; i += 256) {
+    for (int i = index; i < needs.tileCount; i += 256) {
         ReceiverTile tile = tiles[i];
         if (tile.low.x > tile.high.x) continue;
         if (quads != uvec2(0u) && ((quads.x & tile.low.w) | (quads.y & tile.high.w)) == 0u) continue;
@@ -173,8 +166,8 @@ void main() {
     if (int(gl_WorkGroupID.x) >= slotCount()) return;
     int slot = firstSlot() + int(gl_WorkGroupID.x);
     int vertex = sampleOfSlot[slot];
-    for (int face = 0; face < faces; ++face) {
-        placeLayer(layerOf(slot) + face, vertex, cameras[vertex * faces + face]);
+    for (int face = 0; face < batch.faces; ++face) {
+        placeLayer(layerOf(slot) + face, vertex, cameras[vertex * batch.faces + face]);
         barrier();
     }
 }

@@ -12,14 +12,14 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/light_sampling/sample_test.glsl"
 #include "src/techniques/light_sampling/value.glsl"
 
-layout(std430, binding = 4) buffer Tiles { ReceiverTile tiles[]; };
+layout(std140) uniform Constants { ReceiverTilesConstants constants; };
+layout(std430) buffer Tiles { ReceiverTile tiles[]; };
 
 #ifdef BITS
 #include "src/techniques/light_sampling/subdivision_io.h"
 #include "src/techniques/light_sampling/lattice_bits.glsl"
-layout(binding = 4) uniform usampler2D shadowBits;
-layout(std430, binding = 5) readonly buffer SubdivisionBlock { Subdivision subdivision; };
-layout(location = 17) uniform float lightRadius;  // around the light's centre in metres; distant: its sine
+uniform usampler2D shadowBits;
+layout(std430) readonly buffer SubdivisionBlock { Subdivision subdivision; };
 #include "src/techniques/light_sampling/settled.glsl"
 
 // Then all samples count, without a look at each (but black texels do not).
@@ -27,18 +27,16 @@ bool isAllAboveHorizon(Receiver receiver) {
 #if defined(COLORED)
     return false;
 #elif defined(DISTANT)
-    return receiver.normalLight.z > lightRadius + LEAST_HEIGHT;
+    return receiver.normalLight.z > constants.lightRadius + LEAST_HEIGHT;
 #else
-    float distance = length(receiver.posLight) + lightRadius;
-    return dot(receiver.normalLight, -receiver.posLight) > lightRadius + LEAST_HEIGHT * distance;
+    float distance = length(receiver.posLight) + constants.lightRadius;
+    return dot(receiver.normalLight, -receiver.posLight) > constants.lightRadius + LEAST_HEIGHT * distance;
 #endif
 }
 #else
-layout(std430, binding = 6) buffer RedrawBlock { RedrawGroups redraw; };
-layout(location = 17) uniform int slots;
+layout(std430) buffer RedrawBlock { RedrawGroups redraw; };
 #endif
 
-layout(location = 16) uniform int tile_px;
 
 shared uint low[3], high[3], quads[2];
 
@@ -85,9 +83,9 @@ void main() {
     if (gl_LocalInvocationIndex < 2u) quads[gl_LocalInvocationIndex] = 0u;
     barrier();
     Part part = Part(vec3(3e38), vec3(-3e38), uvec2(0u));
-    for (int y = 0; y < tile_px; y += 8) {
-        for (int x = 0; x < tile_px; x += 8) {
-            add(ivec2(gl_WorkGroupID.xy) * tile_px + ivec2(x, y) + ivec2(gl_LocalInvocationID.xy), part);
+    for (int y = 0; y < constants.tile_px; y += 8) {
+        for (int x = 0; x < constants.tile_px; x += 8) {
+            add(ivec2(gl_WorkGroupID.xy) * constants.tile_px + ivec2(x, y) + ivec2(gl_LocalInvocationID.xy), part);
         }
     }
     if (part.low.x <= part.high.x) {
@@ -106,7 +104,7 @@ void main() {
 #ifndef BITS
     if (tiles[index].low != tile.low || tiles[index].high != tile.high) {
         redraw.tiles.x = gl_NumWorkGroups.x;
-        redraw.slots.x = uint(slots);
+        redraw.slots.x = uint(constants.slots);
     }
 #endif
     tiles[index] = tile;

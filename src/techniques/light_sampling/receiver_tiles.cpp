@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "src/techniques/light_sampling/subdivision.h"
+
 namespace penumbra {
 namespace {
 
@@ -29,8 +31,8 @@ ReceiverTiles::ReceiverTiles(Device& device)
       unsettled_(mostTiles * sizeof(ReceiverTile), "unsettled receivers of light samples"),
       redraw_(sizeof(RedrawGroups), "whether receivers of light samples have moved") {}
 
-void ReceiverTiles::findAll(const ShadowInputs& inputs, const SampleCameras& cameras, const SampleMaps& maps,
-                            const VisibilityBuffer& out) {
+void ReceiverTiles::findAll(const ShadowInputs& inputs, const ViewBinding& view, const SampleCameras& cameras,
+                            SampleMaps& maps, const VisibilityBuffer& out) {
     // Each tile is looked at for each map: it costs about what 64 triangles do (llvmpipe), and the finer
     // tiles are, the fewer triangles are drawn. The smallest has a pixel for each of 8 x 8 invocations.
     std::size_t indices = 0;
@@ -43,32 +45,33 @@ void ReceiverTiles::findAll(const ShadowInputs& inputs, const SampleCameras& cam
     }
     const RedrawGroups none{{0, down_, 1, 0}, {0, 1, 1, 0}};
     redraw_.write(std::as_bytes(std::span(&none, 1)));
-    lookup_.use(inputs.light, cameras, {}, {});
-    bind(all_, maps);
-    glUniform1i(17, maps.capacity());
-    glDispatchCompute(GLuint(across_), GLuint(down_), 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    maps.choose(stageOfAll, 0);
+    gl::Pass(lookup_.prepare(inputs.light, cameras, {}, {}))
+        .constants(ReceiverTilesConstants{.tile_px = tile_px_, .slots = maps.capacity()})
+        .bind(view)
+        .bind(maps)
+        .bind(lookup_)
+        .bind("Tiles", all_)
+        .bind("RedrawBlock", redraw_)
+        .dispatch(std::size_t(across_), std::size_t(down_));
 }
 
-void ReceiverTiles::findUnsettled(const ShadowInputs& inputs, const SampleCameras& cameras,
-                                  const SampleMaps& maps, const VisibilityBuffer& out, bool isKept) {
-    lookup_.use(inputs.light, cameras, {}, {.colored = out.colored(), .bits = true});
-    bind(unsettled_, maps);
-    glUniform1f(17, float(radiusOf(inputs.light)));
+void ReceiverTiles::findUnsettled(const ShadowInputs& inputs, const ViewBinding& view,
+                                  const SampleCameras& cameras, SampleMaps& maps,
+                                  const SubdivisionPasses& bits, const VisibilityBuffer& out, bool isKept) {
+    maps.choose(stageOfAll, 0);
+    gl::Pass pass(lookup_.prepare(inputs.light, cameras, {}, {.colored = out.colored(), .bits = true}));
+    pass.constants(ReceiverTilesConstants{.tile_px = tile_px_, .lightRadius = float(radiusOf(inputs.light))})
+        .bind(view)
+        .bind(maps)
+        .bind(lookup_)
+        .bind(bits)
+        .bind("Tiles", unsettled_);
     if (isKept) {
-        gl::dispatchIndirect(redraw_, offsetof(RedrawGroups, tiles));
+        pass.dispatchIndirect(redraw_, offsetof(RedrawGroups, tiles));
     } else {
-        glDispatchCompute(GLuint(across_), GLuint(down_), 1);
+        pass.dispatch(std::size_t(across_), std::size_t(down_));
     }
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-}
-
-void ReceiverTiles::bind(const gl::Buffer& tiles, const SampleMaps& maps) {
-    maps.bind();
-    maps.setBatch(stageOfAll, 0);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, tiles.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 6, redraw_.name());
-    glUniform1i(16, tile_px_);
 }
 
 }  // namespace penumbra

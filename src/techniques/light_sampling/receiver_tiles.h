@@ -10,15 +10,14 @@ class ReceiverTiles {
   public:
     explicit ReceiverTiles(Device& device);
 
-    /// Finds all that the light reaches, and compares them with those found before. Expects the view to be
-    /// bound.
-    void findAll(const ShadowInputs& inputs, const SampleCameras& cameras, const SampleMaps& maps,
-                 const VisibilityBuffer& out);
-    /// Finds those that will ask for samples which were not compared. Expects, besides, weighed samples and
-    /// what settled.glsl reads at texture unit 4 and storage block 5. `isKept`: those found before will do
-    /// unless findAll has found others.
-    void findUnsettled(const ShadowInputs& inputs, const SampleCameras& cameras, const SampleMaps& maps,
-                       const VisibilityBuffer& out, bool isKept);
+    /// Finds all that the light reaches, and compares them with those found before.
+    void findAll(const ShadowInputs& inputs, const ViewBinding& view, const SampleCameras& cameras,
+                 SampleMaps& maps, const VisibilityBuffer& out);
+    /// Finds those that will ask for samples which were not compared. Expects weighed samples. `isKept`:
+    /// those found before will do unless findAll has found others.
+    void findUnsettled(const ShadowInputs& inputs, const ViewBinding& view, const SampleCameras& cameras,
+                       SampleMaps& maps, const SubdivisionPasses& bits, const VisibilityBuffer& out,
+                       bool isKept);
 
     const gl::Buffer& all() const { return all_; }
     const gl::Buffer& unsettled() const { return unsettled_; }
@@ -27,8 +26,6 @@ class ReceiverTiles {
     const gl::Buffer& redraw() const { return redraw_; }
 
   private:
-    void bind(const gl::Buffer& tiles, const SampleMaps& maps);
-
     SampleLookup lookup_;
     gl::Buffer all_, unsettled_, redraw_;
     int tile_px_ = 8, across_ = 0, down_ = 0;

@@ -7,13 +7,11 @@
 #include <numeric>
 #include <string>
 
-#include "src/gl/raster_state.h"
-
 namespace penumbra {
 namespace {
 
-constexpr const char* vertexShader = "src/techniques/light_sampling/sample_map.vert.glsl";
-constexpr const char* fragmentShader = "src/techniques/light_sampling/sample_map.frag.glsl";
+constexpr const char* vertexShader = "src/techniques/common/depth_map.vert.glsl";
+constexpr const char* fragmentShader = "src/techniques/common/depth_map.frag.glsl";
 
 std::vector<std::string> variant(const Device::Internals& device, bool masked = false) {
     std::vector<std::string> defines;
@@ -22,33 +20,10 @@ std::vector<std::string> variant(const Device::Internals& device, bool masked = 
     return defines;
 }
 
-GLuint createVertexArray() {
-    GLuint name = 0;
-    glCreateVertexArrays(1, &name);
-    return name;
-}
-
-void grow(gl::Buffer& buffer, std::size_t size_bytes, std::string_view label) {
-    if (buffer.size_bytes() < size_bytes || buffer.name() == 0) buffer = gl::Buffer(size_bytes, label);
-}
-
 template <typename T>
 void upload(gl::Buffer& buffer, std::span<const T> values, std::string_view label) {
-    grow(buffer, values.size_bytes(), label);
+    buffer.reserve(values.size_bytes(), label);
     if (!values.empty()) buffer.write(std::as_bytes(values));
-}
-
-const void* commandAt(std::size_t index) {
-    return reinterpret_cast<const void*>(index * sizeof(DrawCommand));  // NOLINT: an offset, as GL wants it
-}
-
-void bindStorage(GLuint binding, const gl::Buffer& buffer) {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
-}
-
-void bindInOrder(std::initializer_list<const gl::Buffer*> buffers) {
-    GLuint binding = 0;
-    for (const gl::Buffer* buffer : buffers) bindStorage(binding++, *buffer);
 }
 
 }  // namespace
@@ -60,20 +35,8 @@ SampleMaps::SampleMaps(Device& device)
       placeLayers_(device_.shaders, {"src/techniques/light_sampling/place_layers.comp.glsl"}),
       gather_(device_.shaders, {"src/techniques/light_sampling/gather.comp.glsl"}, variant(device_)),
       clear_(device_.shaders, {"src/techniques/light_sampling/clear.vert.glsl"}, variant(device_)),
-      vertices_(gl::makeFloatVertexArray(3, 2)),
-      noVertices_(createVertexArray()),
+      batch_("light sampling batch"),
       plan_(sizeof(SamplingPlan), "light sampling plan") {}
-
-void SampleMaps::allocate(int mapSize_px, int layers) {
-    if (maps_.width_px() == mapSize_px && maps_.layers() >= layers) return;
-    maps_ = {};  // freed first, so that the two need not fit together
-    maps_ = gl::Texture({.width_px = mapSize_px,
-                         .height_px = mapSize_px,
-                         .layers = layers,
-                         .format = gl::Format::depth32f,
-                         .label = "maps of light samples"});
-    framebuffer_ = gl::Framebuffer({}, &maps_, "maps of light samples");
-}
 
 void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene& scene,
                          std::span<const LightSample> samples, const SampleCameras& cameras, int mapSize_px,
@@ -84,6 +47,7 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
                                                   std::to_string(device_.maxTextureSize_px) + ")");
     }
     casters_ = casters;
+    light_ = scene.light;
     mapSize_px_ = mapSize_px;
     faces_ = cameras.faces;
     const int facesInMemory = std::max(1, faces_);
@@ -92,7 +56,13 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
                                           double(std::max(facesInMemory, device_.maxLayers))));
     capacity_ = std::clamp(mostLayers / facesInMemory, 1, std::max(1, expectedSamples));
     resident_ = capacity_ >= expectedSamples;
-    allocate(mapSize_px, capacity_ * facesInMemory);
+    if (maps_.fit({.width_px = mapSize_px,
+                   .height_px = mapSize_px,
+                   .layers = capacity_ * facesInMemory,
+                   .format = gl::Format::depth32f,
+                   .label = "maps of light samples"})) {
+        framebuffer_ = gl::Framebuffer({}, &maps_, "maps of light samples");
+    }
 
     boxes_.clear();
     constants_.clear();
@@ -116,14 +86,15 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
     const std::size_t casterLayers = layers * (casters.size() + 1);  // one more list for clearing
     identity_.resize(samples.size());
     std::iota(identity_.begin(), identity_.end(), 0);
-    grow(slots_, samples.size() * sizeof(int), "slots of light samples");
-    grow(order_, samples.size() * sizeof(int), "order of light samples");
-    grow(layerCameras_, layers * sizeof(LightCameraConstants), "light sampling layer cameras");
-    grow(layerTaps_, layers * sizeof(LayerTap), "light sampling layer taps");
-    grow(layerMasks_, layers * sizeof(LayerMask), "light sampling layer masks");
-    grow(layerLists_, casterLayers * sizeof(int), "light sampling layer lists");
-    grow(commands_, (device_.layerFromVertexShader ? casters.size() + 1 : casterLayers) * sizeof(DrawCommand),
-         "light sampling draws");
+    slots_.reserve(samples.size() * sizeof(int), "slots of light samples");
+    order_.reserve(samples.size() * sizeof(int), "order of light samples");
+    layerCameras_.reserve(layers * sizeof(LightCameraConstants), "light sampling layer cameras");
+    layerTaps_.reserve(layers * sizeof(LayerTap), "light sampling layer taps");
+    layerMasks_.reserve(layers * sizeof(LayerMask), "light sampling layer masks");
+    instances_.reserve(casterLayers * sizeof(glm::ivec2), "light sampling instances");
+    commands_.reserve(
+        (device_.layerFromVertexShader ? casters.size() + 1 : casterLayers) * sizeof(DrawCommand),
+        "light sampling draws");
 }
 
 void SampleMaps::planAll() {
@@ -136,100 +107,123 @@ void SampleMaps::planAll() {
     order_.write(std::as_bytes(std::span(identity_)));
 }
 
-void SampleMaps::setBatch(int stage, int batch) const {
-    glUniform1i(0, stage);
-    glUniform1i(1, batch * capacity_);
-    glUniform1i(2, capacity_);
-    glUniform1i(3, faces_);
-    glUniform1i(4, resident_);
+void SampleMaps::choose(int stage, int batch) {
+    batch_.write({.stage = stage,
+                  .slotsBefore = batch * capacity_,
+                  .capacity = capacity_,
+                  .faces = faces_,
+                  .isResident = resident_});
 }
 
-void SampleMaps::bind() const {
-    maps_.bind(3);
-    bindStorage(0, plan_);
-    bindStorage(1, slots_);
-    bindStorage(2, samples_);
-    bindStorage(3, layerTaps_);
-    bindStorage(4, order_);
+void SampleMaps::bindTo(gl::Pass& pass) const {
+    pass.bind("BatchBlock", batch_).bind("Plan", plan_).bind("Slots", slots_).bind("Samples", samples_);
+    pass.bind("maps", maps_).bind("LayerTaps", layerTaps_);
+    if (pass.has("Order")) pass.bind("Order", order_);
 }
 
-void SampleMaps::placeLayers(int stage, int batch, const SampleCameras& cameras, const Needs& needs) {
-    placeLayers_.use();
-    setBatch(stage, batch);
-    glUniform1i(5, needs.tiles != nullptr ? needs.tileCount : -1);
-    glUniform1i(6, cameras.isCube);
-    glUniform1f(7, needs.reach);
-    glUniform1f(8, float(cameras.nearestBlocker_m));
-    glUniform1i(9, mapSize_px_);
-    const glm::mat3 faceFromLight(cameras.faceFromLight[0]);
-    glUniformMatrix3fv(10, 1, GL_FALSE, &faceFromLight[0][0]);
-    glUniform1i(13, needs.asksByQuads);
-    const gl::Buffer& tiles = needs.tiles != nullptr ? *needs.tiles : plan_;
-    bindInOrder({&plan_, &slots_, &cameras_, &samples_, &tiles, &layerTaps_, &layerCameras_, &layerMasks_});
+void SampleMaps::placeLayers(int stage, const SampleCameras& cameras, const Needs& needs) {
+    const glm::dmat3& face0FromLight = cameras.faceFromLight[0];
+    gl::Pass pass(placeLayers_);
+    pass.constants(PlaceLayersConstants{.face0FromLight = glm::mat4(glm::mat3(face0FromLight)),
+                                        .tileCount = needs.tiles != nullptr ? needs.tileCount : -1,
+                                        .isCube = cameras.isCube,
+                                        .reach = needs.reach,
+                                        .nearestBlocker_m = float(cameras.nearestBlocker_m),
+                                        .mapSize_px = mapSize_px_,
+                                        .asksByQuads = needs.asksByQuads})
+        .bind("BatchBlock", batch_)
+        .bind("Plan", plan_)
+        .bind("Slots", slots_)
+        .bind("Cameras", cameras_)
+        .bind("Samples", samples_)
+        .bind("Tiles", needs.tiles != nullptr ? *needs.tiles : plan_)
+        .bind("LayerTaps", layerTaps_)
+        .bind("LayerCameras", layerCameras_)
+        .bind("Masks", layerMasks_);
     if (needs.redraw != nullptr) {
-        gl::dispatchIndirect(*needs.redraw, offsetof(RedrawGroups, slots));
+        pass.dispatchIndirect(*needs.redraw, offsetof(RedrawGroups, slots));
     } else {
         constexpr std::size_t countInStage = sizeof(int);
-        gl::dispatchIndirect(plan_, std::size_t(stage) * sizeof(glm::ivec4) + countInStage);
+        pass.dispatchIndirect(plan_, std::size_t(stage) * sizeof(glm::ivec4) + countInStage);
     }
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void SampleMaps::listLayers(int stage, int batch, const Needs& needs) {
-    gather_.use();
-    setBatch(stage, batch);
-    glUniform1i(5, int(casters_.size()));
-    glUniform1i(6, capacity_ * faces_);
-    glUniform1i(7, needs.redraw != nullptr);
-    const gl::Buffer& redraw = needs.redraw != nullptr ? *needs.redraw : plan_;
-    bindInOrder({&plan_, &layerCameras_, &layerMasks_, &cullBoxes_, &layerLists_, &commands_, &redraw});
-    glDispatchCompute(GLuint(casters_.size()) + 1, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+void SampleMaps::gather(const Needs& needs) {
+    gl::Pass(gather_)
+        .constants(GatherConstants{.casterCount = int(casters_.size()),
+                                   .layersInAll = capacity_ * faces_,
+                                   .isKept = needs.redraw != nullptr})
+        .bind("BatchBlock", batch_)
+        .bind("Plan", plan_)
+        .bind("LayerCameras", layerCameras_)
+        .bind("Masks", layerMasks_)
+        .bind("Boxes", cullBoxes_)
+        .bind("Instances", instances_)
+        .bind("Commands", commands_)
+        .bind("RedrawBlock", needs.redraw != nullptr ? *needs.redraw : plan_)
+        .dispatch(casters_.size() + 1);
 }
 
 void SampleMaps::draw(int stage, int batch, const SampleCameras& cameras, const Needs& needs) {
     if (faces_ == 0) return;
-    placeLayers(stage, batch, cameras, needs);
-    listLayers(stage, batch, needs);
-    const auto layers = std::size_t(capacity_ * faces_);
-    bindInOrder({&layerCameras_, &casterConstants_, &layerLists_, &layerMasks_});
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
+    choose(stage, batch);
+    placeLayers(stage, cameras, needs);
+    gather(needs);
     // In one go where the vertex shader chooses the layer, else layer by layer.
-    const std::size_t rounds = device_.layerFromVertexShader ? 1 : layers;
-    gl::RasterState state{
-        .width_px = mapSize_px_, .height_px = mapSize_px_, .depthWrite = true, .colorWrite = false};
-    for (std::size_t round = 0; round < rounds; ++round) {
-        if (rounds > 1) framebuffer_.attachDepthLayer(maps_, int(round));
-        // Only what is needed of the layers of this batch is cleared: what that is, the device alone may
-        // know.
-        state.depthTest = gl::Compare::always;
-        gl::beginPass(framebuffer_.name(), state);
-        glBindVertexArray(noVertices_.name());
-        clear_.use();
-        const std::size_t clearing = casters_.size() * rounds + round;
-        glUniform1i(1, int(device_.layerFromVertexShader ? casters_.size() * layers : clearing));
-        glDrawArraysIndirect(GL_TRIANGLES, commandAt(clearing));
-        state.depthTest = gl::Compare::greater;
-        gl::beginPass(framebuffer_.name(), state);
-        glBindVertexArray(vertices_.name());
-        for (std::size_t i = 0; i < casters_.size(); ++i) drawCaster(i, i * rounds + round);
+    const int rounds = device_.layerFromVertexShader ? 1 : capacity_ * faces_;
+    for (int round = 0; round < rounds; ++round) {
+        if (rounds > 1) framebuffer_.attachDepthLayer(maps_, round);
+        const auto command = [&](std::size_t caster) {
+            return (caster * std::size_t(rounds) + std::size_t(round)) * sizeof(DrawCommand);
+        };
+        clearCells(command(casters_.size()));
+        for (const bool hasHoles : {false, true}) {
+            if (hasHoles && !anyHasHoles()) continue;
+            drawCasters(hasHoles, command);
+        }
     }
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
 }
 
-void SampleMaps::drawCaster(std::size_t caster, std::size_t command) const {
-    const Mesh& mesh = *casters_[caster].mesh;
-    if (boxes_[caster].draw.x == 0) return;
-    const AlphaMask& mask = casters_[caster].alphaMask;
-    (mask.texture != 0 ? masked_ : opaque_).use();
-    gl::attachFloats(vertices_.name(), 0, mesh.positionBuffer(), 3);
-    gl::attachFloats(vertices_.name(), 1, mesh.uvBuffer(), 2);
-    glVertexArrayElementBuffer(vertices_.name(), mesh.indexBuffer());
-    if (mask.texture != 0) glBindTextureUnit(0, mask.texture);
-    const auto layers = std::size_t(capacity_ * faces_);
-    glUniform1i(0, int(caster));
-    glUniform1i(1, int(device_.layerFromVertexShader ? caster * layers : command));
-    glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, commandAt(command));
+gl::RasterState SampleMaps::rasterState(gl::Compare depthTest) const {
+    return {.width_px = mapSize_px_,
+            .height_px = mapSize_px_,
+            .depthTest = depthTest,
+            .depthWrite = true,
+            .colorWrite = false};
+}
+
+/// Only what is needed of the layers of this batch is cleared: what that is, the device alone may know.
+void SampleMaps::clearCells(std::size_t command_bytes) const {
+    gl::Pass(clear_)
+        .bind("Masks", layerMasks_)
+        .vertices("layerAndCaster", instances_, {.perInstance = true})
+        .into(framebuffer_, rasterState(gl::Compare::always))
+        .drawIndirect(gl::Primitive::triangles, commands_, command_bytes);
+}
+
+bool SampleMaps::anyHasHoles() const {
+    return std::ranges::any_of(casters_, [](const Caster& caster) { return caster.alphaMask.texture != 0; });
+}
+
+template <typename CommandOf>
+void SampleMaps::drawCasters(bool haveHoles, CommandOf command_bytes) const {
+    gl::Pass pass(haveHoles ? masked_ : opaque_);
+    pass.constants(DepthMapConstants{.light = light_})
+        .bind("Cameras", layerCameras_)
+        .bind("Casters", casterConstants_)
+        .vertices("layerAndCaster", instances_, {.perInstance = true})
+        .into(framebuffer_, rasterState(gl::Compare::greater));
+    for (std::size_t i = 0; i < casters_.size(); ++i) {
+        const Mesh& mesh = *casters_[i].mesh;
+        const GLuint alphaTexture = casters_[i].alphaMask.texture;
+        if (boxes_[i].draw.x == 0 || (alphaTexture != 0) != haveHoles) continue;
+        pass.vertices("posMesh", {.buffer = mesh.positionBuffer()}).indices(mesh.indexBuffer());
+        if (haveHoles) {
+            pass.vertices("uvMesh", {.buffer = mesh.uvBuffer()});
+            pass.bind("alphaTexture", gl::TextureRef{.name = alphaTexture});
+        }
+        pass.drawIndexedIndirect(commands_, command_bytes(i));
+    }
 }
 
 }  // namespace penumbra

@@ -9,9 +9,8 @@
 #include "src/device_internals.h"
 #include "src/gl/buffer.h"
 #include "src/gl/framebuffer.h"
-#include "src/gl/program.h"
+#include "src/gl/pass.h"
 #include "src/gl/texture.h"
-#include "src/gl/vertex_array.h"
 #include "src/techniques/common/depth_map_io.h"
 #include "src/techniques/light_sampling/sample_cameras.h"
 #include "src/techniques/light_sampling/sampling_io.h"
@@ -56,11 +55,10 @@ class SampleMaps {
     /// Draws the maps of batch `batch` of a stage, as far as they are needed: elsewhere they are undefined.
     void draw(int stage, int batch, const SampleCameras& cameras, const Needs& needs);
 
-    /// Binds the maps to texture unit 3 and to storage blocks 0 to 4: plan, slots, samples, taps, order. For
-    /// sample_test.glsl and evaluate.comp.glsl.
-    void bind() const;
-    /// Sets its uniforms 0 to 3 of the program in use.
-    void setBatch(int stage, int batch) const;
+    /// The batch that passes are about from now on.
+    void choose(int stage, int batch);
+    /// What sample_test.glsl and evaluate.comp.glsl ask for.
+    void bindTo(gl::Pass& pass) const;
 
     const gl::Texture& texture() const { return maps_; }
     const gl::Buffer& plan() const { return plan_; }
@@ -70,18 +68,22 @@ class SampleMaps {
     const gl::Buffer& order() const { return order_; }
 
   private:
-    void allocate(int mapSize_px, int layers);
-    void placeLayers(int stage, int batch, const SampleCameras& cameras, const Needs& needs);
-    void listLayers(int stage, int batch, const Needs& needs);
-    void drawCaster(std::size_t caster, std::size_t command) const;
+    void placeLayers(int stage, const SampleCameras& cameras, const Needs& needs);
+    void gather(const Needs& needs);
+    gl::RasterState rasterState(gl::Compare depthTest) const;
+    void clearCells(std::size_t command_bytes) const;
+    bool anyHasHoles() const;
+    /// `command_bytes` says where the command of a caster is.
+    template <typename CommandOf>
+    void drawCasters(bool haveHoles, CommandOf command_bytes) const;
 
     Device::Internals& device_;
     gl::Program opaque_, masked_, placeLayers_, gather_, clear_;
-    gl::VertexArrayHandle vertices_, noVertices_;
     gl::Texture maps_;
     gl::Framebuffer framebuffer_;
+    gl::ConstantBuffer<BatchConstants> batch_;
     gl::Buffer plan_, slots_, order_, samples_, cameras_;  // as the CPU or the device chose them
-    gl::Buffer layerCameras_, layerTaps_, layerMasks_, layerLists_, commands_;  // of the batch, by layer
+    gl::Buffer layerCameras_, layerTaps_, layerMasks_, instances_, commands_;  // of the batch, by layer
     gl::Buffer cullBoxes_, casterConstants_;
     std::vector<CullBox> boxes_;
     std::vector<CasterConstants> constants_;
@@ -91,6 +93,7 @@ class SampleMaps {
     int faces_ = 0;
     int capacity_ = 1;
     bool resident_ = false;
+    LightConstants light_{};
 };
 
 }  // namespace penumbra

@@ -2,21 +2,18 @@
 // Whether a receiver sees samples of the light, and how much of the light each stands for.
 // Variants: DISTANT, SPHERE; CUBE, where receivers surround the light; FILTER 2 or 3, a side of the kernel in texels.
 // LEAST_HEIGHT: how far a sample must be above the horizon to count, in parts of its distance.
-#define PLAN_BLOCK 0
 #ifndef LEAST_HEIGHT
 #define LEAST_HEIGHT 0.0
 #endif
+#include "src/techniques/common/light_plane.glsl"
 #include "src/techniques/light_sampling/batch.glsl"
 
-layout(binding = 3) uniform sampler2DArray maps;
-layout(std430, binding = 1) readonly buffer Slots { int sampleOfSlot[]; };
-layout(std430, binding = 2) readonly buffer Samples { LightSample samples[]; };
-layout(std430, binding = 3) readonly buffer LayerTaps { LayerTap layerTaps[]; };
+uniform sampler2DArray maps;
+layout(std430) readonly buffer Slots { int sampleOfSlot[]; };
+layout(std430) readonly buffer Samples { LightSample samples[]; };
+layout(std430) readonly buffer LayerTaps { LayerTap layerTaps[]; };
 
-layout(location = 5) uniform vec2 nearFar_m;
-layout(location = 6) uniform bool isOneSided;
-layout(location = 7) uniform bool isWeightedByIrradiance;
-layout(location = 10) uniform mat3 faceFromLight[6];  // locations 10 to 15
+layout(std140) uniform LookupBlock { LookupConstants sampling; };
 
 // A receiver in the axes of the maps; in a cube's, in those of the light.
 struct Lookup {
@@ -28,12 +25,12 @@ Lookup makeLookup(Receiver receiver) {
 #ifdef CUBE
     return Lookup(receiver.posLight, receiver.normalLight);
 #else
-    return Lookup(faceFromLight[0] * receiver.posLight, faceFromLight[0] * receiver.normalLight);
+    return Lookup(mat3(sampling.faceFromLight[0]) * receiver.posLight, mat3(sampling.faceFromLight[0]) * receiver.normalLight);
 #endif
 }
 
-// No sample counts: the surface is on the side to which the light does not emit.
-bool isBehindLight(Receiver receiver) { return isOneSided && receiver.posLight.z >= 0.0; }
+// No sample counts: the surface is on the side to which the light does not emit, or in its plane.
+bool isBehindLight(Receiver receiver) { return isOutsideEmission(receiver.posLight, sampling.light); }
 
 // What a sample counts for this receiver, per unit of its weight; 0 below the horizon. Rects and disks: 1, so that
 // weights are areas. Distant: 1, weights being solid angles. Sphere: the solid angle dA cos / d^2 of the piece of
@@ -41,7 +38,7 @@ bool isBehindLight(Receiver receiver) { return isOneSided && receiver.posLight.z
 float countOf(LightSample light, Receiver receiver) {
 #ifdef DISTANT
     float cosine = dot(receiver.normalLight, light.place.xyz);
-    return cosine > LEAST_HEIGHT ? (isWeightedByIrradiance ? cosine : 1.0) : 0.0;
+    return cosine > LEAST_HEIGHT ? (sampling.isWeightedByIrradiance ? cosine : 1.0) : 0.0;
 #else
     vec3 toSample = light.place.xyz - receiver.posLight;
     float above = dot(receiver.normalLight, toSample);
@@ -55,9 +52,9 @@ float countOf(LightSample light, Receiver receiver) {
     float cosine = -dot(light.normal.xyz, toSample) * inversesqrt(distance2);
     if (center2 < radius2) cosine = abs(cosine);
     float count = max(cosine, 0.0) * light.place.w * center2 / distance2 + 1e-4;
-    return isWeightedByIrradiance ? count * above * inversesqrt(distance2) : count;
+    return sampling.isWeightedByIrradiance ? count * above * inversesqrt(distance2) : count;
 #else
-    if (!isWeightedByIrradiance) return 1.0;
+    if (!sampling.isWeightedByIrradiance) return 1.0;
     return above * abs(receiver.posLight.z) / (distance2 * distance2);
 #endif
 #endif
@@ -82,9 +79,9 @@ float texelLit(int layer, LayerTap tap, vec3 pos, vec3 normal, float across, vec
     receiver_m = clamp(receiver_m, pos.z - 64.0 * texel_m, pos.z);
     receiver_m -= texel_m + 4e-6 * length(pos);
 #ifdef DISTANT
-    return receiver_m <= nearFar_m.y - stored * (nearFar_m.y - nearFar_m.x) || stored == 0.0 ? 1.0 : 0.0;
+    return receiver_m <= sampling.far_m - stored * (sampling.far_m - sampling.near_m) || stored == 0.0 ? 1.0 : 0.0;
 #else
-    return receiver_m * stored <= nearFar_m.x ? 1.0 : 0.0;
+    return receiver_m * stored <= sampling.near_m ? 1.0 : 0.0;
 #endif
 }
 
@@ -106,9 +103,9 @@ float blockerNearness(int layer, Lookup lookup) {
     vec2 at = (place - tap.window.xy) * tap.window.zw * size_px;
     float stored = texelFetch(maps, ivec3(clamp(ivec2(at), ivec2(0), ivec2(size_px) - 1), layer), 0).r;
 #ifdef DISTANT
-    return pos.z - (nearFar_m.y - stored * (nearFar_m.y - nearFar_m.x));
+    return pos.z - (sampling.far_m - stored * (sampling.far_m - sampling.near_m));
 #else
-    return stored / nearFar_m.x - 1.0 / pos.z;
+    return stored / sampling.near_m - 1.0 / pos.z;
 #endif
 }
 
@@ -116,14 +113,14 @@ float besideSampleLit(int layer, Lookup lookup, vec3 place, vec3 step, float nea
     LayerTap tap = layerTaps[layer];
     vec3 pos = lookup.pos;
 #ifdef DISTANT
-    vec3 beside = faceFromLight[0] * (place + step);
+    vec3 beside = mat3(sampling.faceFromLight[0]) * (place + step);
     vec2 slopes = beside.xy / min(beside.z, -1e-6);
     vec2 seenAt = pos.xy - tap.origin.xy * pos.z - (slopes - tap.origin.xy) * nearness;
 #else
     pos -= tap.origin.xyz;
     if (!(pos.z > 0.0)) return 1.0;
     float blocked = nearness * pos.z / (1.0 + nearness * pos.z);
-    vec3 passes = mix(pos, faceFromLight[0] * step, blocked);
+    vec3 passes = mix(pos, mat3(sampling.faceFromLight[0]) * step, blocked);
     if (!(passes.z > 0.0)) return 1.0;
     vec2 seenAt = passes.xy / passes.z;
 #endif
@@ -143,16 +140,16 @@ float sampleLit(int layer, Lookup lookup) {
     vec3 posFace = vec3(0.0, 0.0, -1.0);
     vec2 place = vec2(2.0);
     int face = 0;
-    for (; face < faces; ++face) {
+    for (; face < batch.faces; ++face) {
         tap = layerTaps[layer + face];
-        posFace = faceFromLight[face] * pos - tap.origin.xyz;
+        posFace = mat3(sampling.faceFromLight[face]) * pos - tap.origin.xyz;
         place = posFace.xy / posFace.z;
         if (posFace.z > 0.0 && all(lessThanEqual(abs(place), vec2(1.0)))) break;
     }
-    if (face == faces) return 1.0;
+    if (face == batch.faces) return 1.0;
     layer += face;
     pos = posFace;
-    normal = faceFromLight[face] * normal;
+    normal = mat3(sampling.faceFromLight[face]) * normal;
     float across = dot(normal, pos);
 #elif defined(DISTANT)
     LayerTap tap = layerTaps[layer];

@@ -4,14 +4,10 @@
 #define PENUMBRA_SAMPLING_IO_H
 
 #include "src/techniques/common/light_camera_io.h"
+#include "src/techniques/common/light_io.h"
 
 #ifdef __cplusplus
-#include <glm/glm.hpp>
 namespace penumbra {
-using glm::ivec4;
-using glm::uint;
-using glm::uvec4;
-using glm::vec4;
 #endif
 
 // A point of the light.
@@ -87,6 +83,64 @@ struct SamplingPlan {
     uvec4 compareGroups;      // to dispatch for the slots of the next round: none where it has none
     uvec4 examineGroups;
     ivec4 evaluated;  // x: samples to evaluate, in the order of `Order`
+};
+
+// Which slots of the plan a pass is about.
+SHARED_STRUCT BatchConstants {
+    int stage;
+    int slotsBefore;    // this batch, of the stage
+    int capacity;       // slots in a batch
+    int faces;          // maps a slot
+    bool32 isResident;  // every slot has layers of its own; else batches share them
+};
+
+// What sample_test.glsl needs.
+SHARED_STRUCT LookupConstants {
+    mat4 faceFromLight[6];  // of the first, where maps are no cube's
+    LightConstants light;
+    float near_m;  // of all maps, as LightCamera has them
+    float far_m;
+    bool32 isWeightedByIrradiance;
+};
+
+SHARED_STRUCT PlaceLayersConstants {
+    mat4 face0FromLight;
+    int tileCount;  // negative: maps are to show everything
+    bool32 isCube;
+    float reach;             // of the filter between samples, in sides of the unit square
+    float nearestBlocker_m;  // along the axis from the plane of any sample; distant: depth
+    int mapSize_px;
+    bool32 asksByQuads;  // tiles say which quads of level 3 they ask for
+};
+
+SHARED_STRUCT GatherConstants {
+    int casterCount;
+    int layersInAll;
+    bool32 isKept;  // maps of the last frame are, unless receivers have moved
+};
+
+SHARED_STRUCT ReceiverTilesConstants {
+    int tile_px;
+    float lightRadius;  // around the light's centre in metres; distant: its sine
+    int slots;          // to draw again where receivers have moved
+};
+
+SHARED_STRUCT CompareConstants {
+    ivec2 target_px;
+    bool32 starts;
+    int baseDepth;  // of the tree at its start
+};
+
+SHARED_STRUCT EvaluateConstants {
+    int firstSlot;  // of the batch, to sum
+    int endSlot;
+    bool32 starts;  // the sum
+    bool32 ends;
+    int taps;  // of the filter between samples, a power of two
+};
+
+SHARED_STRUCT WeighConstants {
+    int count;
 };
 
 #ifdef __cplusplus

@@ -2,9 +2,7 @@
 // A filter between the shadows of neighbouring samples: where they disagree, a sample is asked for its cell of the
 // light instead of its point. The kernel is what the cell's points would see of the blockers: it is as wide as the
 // shadows are apart, so that they meet without a step and nothing is blurred further. How near the blockers are, the
-// samples in shadow know.
-layout(location = 17) uniform int taps;  // of the kernel, a power of two
-
+// samples in shadow know. Includer declares `constants`.
 // The mean over samples in shadow that disagree with a neighbour, see blockerNearness; 0: there are none.
 float meanNearness(Comparison comparison, Lookup lookup) {
     float sum = 0.0;
@@ -24,12 +22,12 @@ float cellLit(int vertex, Lookup lookup, float nearness) {
     LightSample light = samples[vertex];
     int layer = layerOf(subdivision.slotOfVertex[vertex]);
     float lit = 0.0;
-    for (int i = 0; i < taps; ++i) {
-        vec2 at = vec2(float(i) / float(taps), float(bitfieldReverse(uint(i))) / 4294967296.0);
-        at += 0.5 / float(taps) - 0.5;
+    for (int i = 0; i < constants.taps; ++i) {
+        vec2 at = vec2(float(i) / float(constants.taps), float(bitfieldReverse(uint(i))) / 4294967296.0);
+        at += 0.5 / float(constants.taps) - 0.5;
         at = light.normal.w * at + vec2(light.spanU.w, light.spanV.w);
         vec3 step = at.x * light.spanU.xyz + at.y * light.spanV.xyz;
         lit += besideSampleLit(layer, lookup, light.place.xyz, step, nearness);
     }
-    return lit / float(taps);
+    return lit / float(constants.taps);
 }

@@ -7,18 +7,8 @@
 namespace penumbra {
 namespace {
 
-void bindStorage(GLuint binding, const gl::Buffer& buffer) {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
-}
-
 std::vector<std::string> file(const char* name) {
     return {std::string("src/techniques/light_sampling/") + name};
-}
-
-void resize(gl::Texture& texture, int width_px, int height_px, gl::Format format, std::string_view label) {
-    if (texture.width_px() == width_px && texture.height_px() == height_px && texture.name() != 0) return;
-    texture = {};
-    texture = gl::Texture({.width_px = width_px, .height_px = height_px, .format = format, .label = label});
 }
 
 constexpr int quadsPictureSize_px = 257;
@@ -53,7 +43,8 @@ SubdivisionPasses::SubdivisionPasses(Device& device)
       illustrate_(device.internals().shaders, file("illustrate.comp.glsl")),
       illustrateQuads_(device.internals().shaders, file("illustrate_quads.comp.glsl")),
       compare_(device, file("compare.comp.glsl").front()),
-      tree_(sizeof(Subdivision), "light subdivision") {
+      tree_(sizeof(Subdivision), "light subdivision"),
+      noShares_(sizeof(LightSample), "no light sampling cell shares") {
     for (Readback& readback : readbacks_) {
         readback.subdivision = gl::Buffer(sizeof(Subdivision), "light subdivision readback");
         readback.plan = gl::Buffer(sizeof(SamplingPlan), "light sampling plan readback");
@@ -61,7 +52,10 @@ SubdivisionPasses::SubdivisionPasses(Device& device)
 }
 
 void SubdivisionPasses::prepare(int width_px, int height_px) {
-    resize(bits_, width_px, height_px, gl::Format::rgba32ui, "shadow values of light samples");
+    bits_.fit({.width_px = width_px,
+               .height_px = height_px,
+               .format = gl::Format::rgba32ui,
+               .label = "shadow values of light samples"});
 }
 
 void SubdivisionPasses::start(const SampleMaps& maps, const SubdivisionOptions& options, bool isCoherent) {
@@ -74,87 +68,82 @@ void SubdivisionPasses::decide(const SampleMaps& maps, int round, const Subdivis
 
 void SubdivisionPasses::decide(const SampleMaps& maps, int round, const SubdivisionOptions& options,
                                bool isCoherent) {
-    decide_.use();
-    bindStorage(0, tree_);
-    bindStorage(1, maps.plan());
-    bindStorage(2, maps.slots());
-    glUniform1i(0, round);
-    glUniform1i(1, options.maxSamples);
-    glUniform1ui(2, GLuint(options.tolerated));
-    glUniform1i(3, options.minDepth);
-    glUniform1i(4, options.maxDepth);
-    glUniform1i(5, options.baseDepth());
-    glUniform1i(6, isCoherent);
-    glUniform1i(7, options.maxError > 0);
-    glUniform2i(8, bits_.width_px(), bits_.height_px());
-    glDispatchCompute(1, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    gl::Pass(decide_)
+        .constants(DecideConstants{.target_px = {bits_.width_px(), bits_.height_px()},
+                                   .round = round,
+                                   .maxSamples = options.maxSamples,
+                                   .tolerated = glm::uint(options.tolerated),
+                                   .minDepth = options.minDepth,
+                                   .maxDepth = options.maxDepth,
+                                   .baseDepth = options.baseDepth(),
+                                   .isCoherent = isCoherent,
+                                   .isOneLevelARound = options.maxError > 0})
+        .bind("SubdivisionBlock", tree_)
+        .bind("Plan", maps.plan())
+        .bind("Slots", maps.slots())
+        .dispatch(1);
 }
 
-void SubdivisionPasses::compare(const ShadowInputs& inputs, const SampleCameras& cameras,
-                                const SampleMaps& maps, const SubdivisionOptions& options, int stage,
-                                int batch) {
-    compare_.use(inputs.light, cameras, {}, {});
-    maps.bind();
-    maps.setBatch(stage, batch);
-    bits_.bindImage(0, GL_READ_WRITE);
-    glUniform2i(16, bits_.width_px(), bits_.height_px());
-    glUniform1i(17, batch == 0 && (stage == 0 || stage == stageOfCoarse));
-    glUniform1i(18, options.baseDepth());
+void SubdivisionPasses::compare(const ShadowInputs& inputs, const ViewBinding& view,
+                                const SampleCameras& cameras, SampleMaps& maps,
+                                const SubdivisionOptions& options, int stage, int batch) {
+    maps.choose(stage, batch);
+    gl::Pass pass(compare_.prepare(inputs.light, cameras, {}, {}));
+    pass.constants(CompareConstants{.target_px = {bits_.width_px(), bits_.height_px()},
+                                    .starts = batch == 0 && (stage == 0 || stage == stageOfCoarse),
+                                    .baseDepth = options.baseDepth()})
+        .bind(view)
+        .bind(maps)
+        .bind(compare_)
+        .bind("shadowBits", bits_);
     if (stage == stageOfCoarse) {
-        gl::dispatchPixels(bits_.width_px(), bits_.height_px());
+        pass.dispatchPixels(bits_.width_px(), bits_.height_px());
     } else {
-        gl::dispatchIndirect(maps.plan(), offsetof(SamplingPlan, compareGroups));
+        pass.dispatchIndirect(maps.plan(), offsetof(SamplingPlan, compareGroups));
     }
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void SubdivisionPasses::prepareExamination(const SubdivisionOptions& options) {
-    examine_.use();
-    bits_.bind(0);
-    bindStorage(0, tree_);
-    glUniform1i(0, options.maxDepth);
-    glUniform1f(1, options.maxError);
-    glUniform1f(2, options.cellError);
+void SubdivisionPasses::examine(const SampleMaps* maps, const SubdivisionOptions& options) {
+    gl::Pass pass(examine_);
+    pass.constants(ExamineConstants{
+                       .maxDepth = options.maxDepth,
+                       .maxError = options.maxError,
+                       .cellError = options.cellError,
+                   })
+        .bind(*this);
+    if (maps != nullptr) {
+        pass.dispatchIndirect(maps->plan(), offsetof(SamplingPlan, examineGroups));
+    } else {
+        pass.dispatch(std::size_t(bits_.width_px() + 15) / 16, std::size_t(bits_.height_px() + 15) / 16);
+    }
 }
 
 void SubdivisionPasses::examine(const SampleMaps& maps, const SubdivisionOptions& options) {
-    prepareExamination(options);
-    gl::dispatchIndirect(maps.plan(), offsetof(SamplingPlan, examineGroups));
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    examine(&maps, options);
 }
 
 void SubdivisionPasses::examineError(const SubdivisionOptions& options) {
-    prepareExamination(options);
-    glDispatchCompute(GLuint(bits_.width_px() + 15) / 16, GLuint(bits_.height_px() + 15) / 16, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-}
-
-void SubdivisionPasses::bind(GLuint unit, GLuint block) const {
-    bits_.bind(unit);
-    bindStorage(block, tree_);
+    examine(nullptr, options);
 }
 
 void SubdivisionPasses::weigh(const SampleMaps& maps, bool usesPaperWeights, const gl::Buffer* cellShares) {
-    weigh_.use();
-    bindStorage(0, tree_);
-    bindStorage(1, maps.samples());
-    bindStorage(2, cellShares != nullptr ? *cellShares : maps.plan());
-    bindStorage(3, maps.order());
-    bindStorage(4, maps.plan());
-    glUniform1i(0, usesPaperWeights);
-    glUniform1i(1, cellShares != nullptr);
-    glDispatchCompute(1, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    gl::Pass(weigh_)
+        .constants(LatticeWeightsConstants{.usesPaperWeights = usesPaperWeights,
+                                           .isTextured = cellShares != nullptr})
+        .bind("SubdivisionBlock", tree_)
+        .bind("Samples", maps.samples())
+        .bind("Cells", cellShares != nullptr ? *cellShares : noShares_)
+        .bind("Order", maps.order())
+        .bind("Plan", maps.plan())
+        .dispatch(1);
 }
 
 void SubdivisionPasses::requestReadback(const SampleMaps& maps) {
     newest_ = (newest_ + 1) % framesInFlight;
     Readback& readback = readbacks_[std::size_t(newest_)];
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glCopyNamedBufferSubData(tree_.name(), readback.subdivision.name(), 0, 0, sizeof(Subdivision));
-    glCopyNamedBufferSubData(maps.plan().name(), readback.plan.name(), 0, 0, sizeof(SamplingPlan));
-    readback.fence.set(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0));
+    tree_.copyTo(readback.subdivision, sizeof(Subdivision));
+    maps.plan().copyTo(readback.plan, sizeof(SamplingPlan));
+    readback.fence.set();
 }
 
 std::optional<SubdivisionPasses::Snapshot> SubdivisionPasses::latest() const {
@@ -171,20 +160,23 @@ std::optional<SubdivisionPasses::Snapshot> SubdivisionPasses::latest() const {
 }
 
 void SubdivisionPasses::illustrate() const {
-    resize(sums_, bits_.width_px(), bits_.height_px(), gl::Format::rgba8, "light sampling sums");
-    resize(failing_, bits_.width_px(), bits_.height_px(), gl::Format::rgba8,
-           "light sampling failing fragments");
-    resize(quads_, quadsPictureSize_px, quadsPictureSize_px, gl::Format::rgba8, "light sampling quads");
-    illustrate_.use();
-    bits_.bind(0);
-    bindStorage(0, tree_);
-    sums_.bindImage(0, GL_WRITE_ONLY);
-    failing_.bindImage(1, GL_WRITE_ONLY);
-    gl::dispatchPixels(bits_.width_px(), bits_.height_px());
-    illustrateQuads_.use();
-    quads_.bindImage(0, GL_WRITE_ONLY);
-    gl::dispatchPixels(quadsPictureSize_px, quadsPictureSize_px);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    gl::TextureSpec spec{.width_px = bits_.width_px(),
+                         .height_px = bits_.height_px(),
+                         .format = gl::Format::rgba8,
+                         .label = "light sampling pictures"};
+    sums_.fit(spec);
+    failing_.fit(spec);
+    spec.width_px = spec.height_px = quadsPictureSize_px;
+    quads_.fit(spec);
+    gl::Pass(illustrate_)
+        .bind(*this)
+        .bind("sumsPicture", sums_)
+        .bind("failingPicture", failing_)
+        .dispatchPixels(bits_.width_px(), bits_.height_px());
+    gl::Pass(illustrateQuads_)
+        .bind("SubdivisionBlock", tree_)
+        .bind("picture", quads_)
+        .dispatchPixels(quadsPictureSize_px, quadsPictureSize_px);
 }
 
 }  // namespace penumbra

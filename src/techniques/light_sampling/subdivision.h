@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-#include "src/gl/framebuffer.h"
+#include "src/gl/fence.h"
 #include "src/techniques/light_sampling/evaluation.h"
 #include "src/techniques/light_sampling/subdivision_io.h"
 
@@ -44,10 +44,10 @@ class SubdivisionPasses {
     /// among them; its options must have been the same.
     void start(const SampleMaps& maps, const SubdivisionOptions& options, bool isCoherent);
 
-    /// Adds the shadow values of a batch's samples (its maps must be drawn, the view be bound). Does nothing
-    /// for a round without samples; the stage of all that is compared is compared always.
-    void compare(const ShadowInputs& inputs, const SampleCameras& cameras, const SampleMaps& maps,
-                 const SubdivisionOptions& options, int stage, int batch);
+    /// Adds the shadow values of a batch's samples (its maps must be drawn). Does nothing for a round without
+    /// samples; the stage of all that is compared is compared always.
+    void compare(const ShadowInputs& inputs, const ViewBinding& view, const SampleCameras& cameras,
+                 SampleMaps& maps, const SubdivisionOptions& options, int stage, int batch);
 
     /// Tests the quads that are known, and splits those that fail: the plan's stage `round` + 1 are the new
     /// samples to compare, that of the deepest those that are not compared.
@@ -60,8 +60,8 @@ class SubdivisionPasses {
     /// light, or null.
     void weigh(const SampleMaps& maps, bool usesPaperWeights, const gl::Buffer* cellShares);
 
-    /// Binds the shadow values to a texture unit, and the tree to a storage block. For settled.glsl.
-    void bind(GLuint unit, GLuint block) const;
+    /// The shadow values and the tree, for settled.glsl.
+    void bindTo(gl::Pass& pass) const { pass.bind("shadowBits", bits_).bind("SubdivisionBlock", tree_); }
 
     /// Asks for the tree's numbers, and gets those of an earlier frame that have arrived: nobody waits.
     void requestReadback(const SampleMaps& maps);
@@ -79,36 +79,18 @@ class SubdivisionPasses {
     const gl::Texture& quadsPicture() const { return quads_; }
 
   private:
-    class Fence {
-      public:
-        Fence() = default;
-        Fence(const Fence&) = delete;
-        Fence& operator=(const Fence&) = delete;
-        ~Fence() { set(nullptr); }
-        void set(GLsync sync) {
-            if (sync_ != nullptr) glDeleteSync(sync_);
-            sync_ = sync;
-        }
-        bool hasPassed() const {
-            if (sync_ == nullptr) return false;
-            const GLenum state = glClientWaitSync(sync_, 0, 0);
-            return state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
-        }
-
-      private:
-        GLsync sync_ = nullptr;
-    };
     struct Readback {
         gl::Buffer subdivision, plan;
-        Fence fence;
+        gl::Fence fence;
     };
 
     void decide(const SampleMaps& maps, int round, const SubdivisionOptions& options, bool isCoherent);
-    void prepareExamination(const SubdivisionOptions& options);
+    /// What the maps' plan says is to be examined; null: everything.
+    void examine(const SampleMaps* maps, const SubdivisionOptions& options);
 
     gl::Program decide_, examine_, weigh_, illustrate_, illustrateQuads_;
     SampleLookup compare_;
-    gl::Buffer tree_;
+    gl::Buffer tree_, noShares_;
     gl::Texture bits_;
     mutable gl::Texture sums_, failing_, quads_;
     static constexpr int framesInFlight = 3;

@@ -6,10 +6,10 @@
 #ifndef PENUMBRA_SUBDIVISION_IO_H
 #define PENUMBRA_SUBDIVISION_IO_H
 
+#include "src/gl/shared_types.h"
+
 #ifdef __cplusplus
-#include <glm/glm.hpp>
 namespace penumbra {
-using glm::uint;
 #endif
 
 const int deepestLevel = 4;
@@ -28,6 +28,29 @@ struct Subdivision {
     int decidedLevels;       // quads of levels below are as they will stay
     uint reachedMaximum;     // 1 where a quad was left whole for want of maps
     uint errorBound;         // bits of the largest of a pixel (see examine.comp.glsl)
+};
+
+SHARED_STRUCT DecideConstants {
+    ivec2 target_px;  // of the comparison
+    int round;        // -1: starts the tree
+    int maxSamples;
+    uint tolerated;  // failing fragments
+    int minDepth;    // every quad above it is split
+    int maxDepth;
+    int baseDepth;      // to which the tree is split at the start
+    bool32 isCoherent;  // the last frame's tree is there to start from
+    bool32 isOneLevelARound;
+};
+
+SHARED_STRUCT ExamineConstants {
+    int maxDepth;
+    float maxError;   // 0: the paper's test decides
+    float cellError;  // of what the corners of a quad say of it, over its area
+};
+
+SHARED_STRUCT LatticeWeightsConstants {
+    bool32 usesPaperWeights;
+    bool32 isTextured;
 };
 
 #ifdef __cplusplus

@@ -50,6 +50,7 @@ void UniformLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& 
         radiance_.weigh(inputs.light.radianceTexture, cells_, maps_.samples());
     }
 
+    view_.fill(inputs.view, lightFromWorldMatrix);
     batches_ = maps_.batches(count);
     for (int batch = 0; batch < batches_; ++batch) {
         {
@@ -58,8 +59,7 @@ void UniformLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& 
         }
         {
             const auto pass = timers_.pass("uniform/evaluation");
-            view_.bind(inputs.view, lightFromWorldMatrix);
-            evaluation_.add(inputs, cameras_, evaluationOptions_, maps_,
+            evaluation_.add(inputs, view_, cameras_, evaluationOptions_, maps_,
                             {.batch = batch,
                              .mostSlots = std::min(maps_.capacity(), count),
                              .starts = batch == 0,

@@ -5,11 +5,11 @@ layout(local_size_x = 64) in;
 
 #include "src/techniques/light_sampling/sampling_io.h"
 
-layout(binding = 0) uniform sampler2D radiance;
-layout(std430, binding = 0) readonly buffer Cells { vec4 cells[]; };  // xy: min; zw: max
-layout(std430, binding = 1) buffer Samples { LightSample samples[]; };
+uniform sampler2D radiance;
+layout(std430) readonly buffer Cells { vec4 cells[]; };  // xy: min; zw: max
+layout(std430) buffer Samples { LightSample samples[]; };
 
-layout(location = 0) uniform int count;
+layout(std140) uniform Constants { WeighConstants constants; };
 
 vec3 emitted(ivec2 texel, ivec2 size_px) {
     vec3 value = texelFetch(radiance, clamp(texel, ivec2(0), size_px - 1), 0).rgb;
@@ -28,7 +28,7 @@ vec3 radianceAt(vec2 square, ivec2 size_px) {
 
 void main() {
     int i = int(gl_GlobalInvocationID.x);
-    if (i >= count) return;
+    if (i >= constants.count) return;
     ivec2 size_px = textureSize(radiance, 0);
     vec4 cell = cells[i];
     vec2 extent = cell.zw - cell.xy;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "src/gl/gl.h"
+
+namespace penumbra::gl {
+
+/// Tells without waiting whether the device has come past a point in its work.
+class Fence {
+  public:
+    Fence() = default;
+    Fence(const Fence&) = delete;
+    Fence& operator=(const Fence&) = delete;
+    ~Fence() { remove(); }
+
+    /// The point is behind all that was asked of the device so far.
+    void set() {
+        remove();
+        sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    }
+    /// False, too, where it was never set.
+    bool hasPassed() const {
+        if (sync_ == nullptr) return false;
+        const GLenum state = glClientWaitSync(sync_, 0, 0);
+        return state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED;
+    }
+
+  private:
+    void remove() {
+        if (sync_ != nullptr) glDeleteSync(sync_);
+        sync_ = nullptr;
+    }
+
+    GLsync sync_ = nullptr;
+};
+
+}  // namespace penumbra::gl
