@@ -13,7 +13,7 @@ class NearestTiles {
   public:
     explicit NearestTiles(Device& device);
 
-    void build(const DepthMap& depthMap, LightShape shape);
+    void build(const DepthMap& depthMap, const AreaLight& light);
     const gl::Buffer& tiles() const { return tiles_; }
 
     /// Width of a tile.

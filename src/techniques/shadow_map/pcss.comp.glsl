@@ -7,18 +7,21 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/common/view.glsl"
 #include "src/techniques/common/depth_map.glsl"
 #include "src/techniques/shadow_map/shadow_map_io.h"
+#include "src/techniques/common/light_plane.glsl"
 #include "src/techniques/shadow_map/light_frame.glsl"
 #include "src/techniques/shadow_map/nearest_tiles.glsl"
 
 layout(std140) uniform Constants { PcssConstants pcss; };
 layout(std430) readonly buffer SearchPattern { vec4 searchPattern[]; };  // direction, distance
 layout(std430) readonly buffer FilterPattern { vec2 filterPattern[]; };  // square or disk
-layout(std430) readonly buffer NearestTiles { float nearestTiles[]; };
+layout(std430) readonly buffer NearestTiles { float nearestTiles[][tangents]; };
 
 uniform sampler2D radiance;
 uniform writeonly image2D visibility;
 
 const float largestK = 1e4;
+const int mostRounds = 8;
+const float rounding = 1.01;  // what bounds of k may be short of
 
 // What makes one pixel's pattern differ from the next one's; nothing by default.
 struct Dither {
@@ -72,57 +75,74 @@ vec2 lightPlace(int i, Dither dither, float oneMinusCosine) {
     return pcss.light.shape == shapeDisk ? place : evenInSolidAngle(place, oneMinusCosine);
 }
 
-// The largest k that a blocker may have in the part of the map where the light's outline, times k, is seen.
-float largestKWithin(int camera, LightFrame face, float k) {
+// The closeness of the nearest blocker in the part of a map where the light's outline, times k, is seen; for receivers of
+// a tangent (nearest_tiles.glsl).
+float closestWithin(int camera, LightFrame face, float k, int tangent) {
     LightCameraConstants c = lightCameras[camera];
     bool orthographic = c.depth.z == 1.0;
     vec2 low = vec2(1e30), high = vec2(-1e30);
+    int before = 0;
     for (int i = 0; i < 4; ++i) {
         vec2 corner = k * vec2((i & 1) * 2 - 1, (i & 2) - 1);
         vec3 aim = face.pos + corner.x * face.axisX + corner.y * face.axisY;
-        bool isInFront = orthographic || aim.z > 0.0;
+        if (!orthographic && aim.z <= 0.0) continue;
+        ++before;
         vec2 uv = ((orthographic ? aim.xy : aim.xy / aim.z) - c.window.xy) * c.window.zw;
-        low = isInFront ? min(low, uv) : vec2(-1.0);
-        high = isInFront ? max(high, uv) : vec2(2.0);
-        if (!isInFront) break;
+        low = min(low, uv);
+        high = max(high, uv);
     }
-
-    float closest = -3.4e38;
-    bool isInside = all(greaterThanEqual(low, vec2(0.0))) && all(lessThan(high, vec2(1.0)));
-    if (isInside || pcss.mapCount == 1) {
-        float tiles = float(textureSize(depthMaps, 0).x) / float(pcss.tile_px);
-        ivec2 first = min(ivec2(clamp(low, 0.0, 1.0) * tiles), tilesAcross - 1);
-        ivec2 last = min(ivec2(clamp(high, 0.0, 1.0) * tiles), tilesAcross - 1);
-        int level = 0;
-        while (level < pyramidLevels - 1 && any(greaterThan((last >> level) - (first >> level), ivec2(1)))) ++level;
-        first >>= level;
-        last >>= level;
-        int start = camera * tilesPerMap + pyramidStart(level), across = tilesAcross >> level;
-        closest = max(max(nearestTiles[start + first.y * across + first.x], nearestTiles[start + first.y * across + last.x]),
-                      max(nearestTiles[start + last.y * across + first.x], nearestTiles[start + last.y * across + last.x]));
-    } else {
-        for (int map = 0; map < pcss.mapCount; ++map) {
-            closest = max(closest, nearestTiles[map * tilesPerMap + tilesPerMap - 1]);
-        }
+    if (before == 0) return -3.4e38;
+    if (before < 4) {
+        low = vec2(0.0);
+        high = vec2(1.0);
     }
-    float largest = orthographic ? face.pos.z + closest : face.distance_m * closest - 1.0;
-    // A blocker nearer to the receiver than the tolerance is none.
-    return largest < 0.5 * toleranceTexels * c.depth.w ? 0.0 : min(largest, largestK);
+    if (any(lessThan(high, vec2(0.0))) || any(greaterThan(low, vec2(1.0)))) return -3.4e38;
+    float tiles = float(textureSize(depthMaps, 0).x) / float(pcss.tile_px);
+    ivec2 first = min(ivec2(clamp(low, 0.0, 1.0) * tiles), tilesAcross - 1);
+    ivec2 last = min(ivec2(clamp(high, 0.0, 1.0) * tiles), tilesAcross - 1);
+    int level = 0;
+    while (level < pyramidLevels - 1 && any(greaterThan((last >> level) - (first >> level), ivec2(1)))) ++level;
+    first >>= level;
+    last >>= level;
+    int start = camera * tilesPerMap + pyramidStart(level), across = tilesAcross >> level;
+    return max(max(nearestTiles[start + first.y * across + first.x][tangent],
+                   nearestTiles[start + first.y * across + last.x][tangent]),
+               max(nearestTiles[start + last.y * across + first.x][tangent],
+                   nearestTiles[start + last.y * across + last.x][tangent]));
 }
 
-// The mean k of the blockers that may hide some of the light; 0 if there are none.
-float searchBlockers(int camera, LightFrame face, LightFrame lightFrame, Dither dither) {
+// The largest k that a blocker may have which hides some of the light; 0 if none does. It lies where the light's outline,
+// times its own k, is seen: so the region to look for it in shrinks with what is found there.
+float largestKOfBlockers(int camera, LightFrame face, LightFrame lightFrame) {
+    bool orthographic = lightCameras[camera].depth.z == 1.0;
+    int tangent = tangentIndex(length(lightFrame.pos.xy) / max(abs(lightFrame.pos.z), 1e-30));
     float k = largestK;
-    for (int i = 0; i < 3; ++i) k = min(k, largestKWithin(camera, face, k));
-    if (k == 0.0) return 0.0;
+    for (int round = 0; round < mostRounds; ++round) {
+        float closest = closestWithin(camera, face, k, tangent);
+        for (int other = 0; other < pcss.mapCount; ++other) {
+            if (other == camera) continue;
+            closest = max(closest, closestWithin(other, faceFrame(other, lightFrame), k, tangent));
+        }
+        float largest = orthographic ? face.pos.z + closest : face.distance_m * closest - 1.0;
+        // A blocker nearer to the receiver than the tolerance is none.
+        if (largest < 0.5 * toleranceTexels * lightCameras[camera].depth.w) return 0.0;
+        bool isSettled = largest > 0.75 * k;
+        k = min(k, largest);
+        if (isSettled) break;
+    }
+    return k;
+}
 
+// The mean k of the blockers that may hide some of the light, none of which is larger than `k`; 0 if there are none. What
+// has a larger one lies beside the light: it is no blocker.
+float searchBlockers(int camera, LightFrame face, LightFrame lightFrame, Dither dither, float k) {
     float area = 0.0, areaTimesK = 0.0, areaOverK = 0.0;
     for (int i = 0; i < pcss.searchSamples; ++i) {
         vec2 direction = dither.rotation * searchPattern[i].xy;
         float outline = pcss.light.shape == shapeRect ? 1.0 / max(abs(direction.x), abs(direction.y)) : 1.0;
         float fraction = searchPattern[i].z;
         Tap tap = tapAny(camera, pcss.mapCount, face, lightFrame, k * fraction * outline * direction);
-        if (!tap.isBlocked) continue;
+        if (!tap.isBlocked || tap.k > rounding * k) continue;
         // Its part of the searched area. Distances are even, hence the factor; the centre has a disk to itself.
         float part = max(fraction, 0.25 / float(pcss.searchSamples)) * outline * outline;
         area += part;
@@ -130,12 +150,12 @@ float searchBlockers(int camera, LightFrame face, LightFrame lightFrame, Dither 
         areaOverK += part / tap.k;
     }
     if (area == 0.0) return 0.0;
-    return min(pcss.meanIsHarmonic ? area / areaOverK : areaTimesK / area, largestK);
+    return pcss.meanIsHarmonic ? area / areaOverK : areaTimesK / area;
 }
 
 vec3 seenBy(Receiver receiver, Dither dither) {
     bool isDistant = pcss.light.shape == shapeDistant;
-    if (pcss.light.isOneSided && receiver.posLight.z >= 0.0) return vec3(0.0);
+    if (isOutsideEmission(receiver.posLight, pcss.light)) return vec3(0.0);
     int camera = -1;
     MapPoint point;
     for (int i = 0; i < pcss.mapCount && camera < 0; ++i) {
@@ -153,7 +173,9 @@ vec3 seenBy(Receiver receiver, Dither dither) {
     if (camera < 0 || frame.distance_m == 0.0) return vec3(1.0);
 
     LightFrame face = faceFrame(camera, frame);
-    float k = searchBlockers(camera, face, frame, dither);
+    float largest = largestKOfBlockers(camera, face, frame);
+    if (largest == 0.0) return vec3(1.0);
+    float k = searchBlockers(camera, face, frame, dither, largest);
     if (k == 0.0) return vec3(1.0);
 
     float sine = min(pcss.light.halfSize.x / frame.distance_m, 0.999);
@@ -165,7 +187,8 @@ vec3 seenBy(Receiver receiver, Dither dither) {
         if (center + dot(slope, place) <= 0.0) continue;
         vec3 weight = pcss.light.isTextured ? textureLod(radiance, 0.5 * place + 0.5, 0.0).rgb : vec3(1.0);
         all += weight;
-        if (!tapAny(camera, pcss.mapCount, face, frame, k * place).isBlocked) lit += weight;
+        Tap tap = tapAny(camera, pcss.mapCount, face, frame, k * place);
+        if (!tap.isBlocked || tap.k > rounding * largest) lit += weight;
     }
     return mix(vec3(0.0), lit / max(all, vec3(1e-30)), greaterThan(all, vec3(0.0)));
 }

@@ -85,7 +85,7 @@ void Pcss::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const AreaLight light = scaled(inputs.light, lightScale_);
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
-    LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px_});
+    LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px_, .splits = true});
     widenForLight(cameras, light, scene);
     updatePatterns(light);
     {
@@ -94,7 +94,7 @@ void Pcss::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     }
     {
         const auto pass = timers_.pass("pcss/nearest blockers");
-        nearestTiles_.build(depthMap_, light.shape);
+        nearestTiles_.build(depthMap_, light);
     }
     {
         const auto pass = timers_.pass("pcss/resolve");

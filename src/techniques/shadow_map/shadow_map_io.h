@@ -42,8 +42,8 @@ SHARED_STRUCT PcssConstants {
 
 // How near blockers may be, of a map (nearest_tiles.comp.glsl).
 SHARED_STRUCT NearestTilesConstants {
-    int tile_px;      // width of a tile
-    bool32 hasPlane;  // rect and disk lights
+    LightConstants light;
+    int tile_px;  // width of a tile
 };
 
 #ifdef __cplusplus
