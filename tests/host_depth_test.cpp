@@ -3,115 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <map>
+#include <numeric>
 
-#include "src/gl/framebuffer.h"
-#include "src/gl/texture.h"
-#include "studio/frame/conversions.h"
-#include "tests/support/host_test.h"
+#include "tests/support/host_depth.h"
 #include "tests/support/random_ground.h"
 
 namespace penumbra::studio {
 namespace {
 
-struct DepthForm {
-    const char* name;
-    GLenum format;
-    DepthConvention convention;
-};
-
-struct Range {
-    double near_m, far_m;
-};
-
-class HostDepth : public HostTest {
-  protected:
-    /// The frame's casters as a host with that depth sees them; without a far plane where it is reversed.
-    View drawn(const ShadowInputs& frame, const DepthForm& form, const Range& range,
-               bool hasNormals = false) {
-        const bool fromZero = form.convention.range == DepthConvention::Range::zeroToOne;
-        View view = frame.view;
-        glm::mat4 clipFromView = fromPenumbra(view.clipFromView);
-        if (form.convention.reversed) {
-            clipFromView[2][2] = 0;
-            clipFromView[3][2] = float(range.near_m);
-        } else {
-            const double deep_m = range.far_m - range.near_m;
-            clipFromView[2][2] = float((fromZero ? -range.far_m : -(range.far_m + range.near_m)) / deep_m);
-            clipFromView[3][2] = float((fromZero ? -1 : -2) * range.far_m * range.near_m / deep_m);
-        }
-        view.clipFromView = toPenumbra(clipFromView);
-        view.depth = form.convention;
-        if (!hasNormals) view.normalTexture = view.receiverTexture = 0;
-        depth_ = gl::Texture({.width_px = view.width_px,
-                              .height_px = view.height_px,
-                              .format = form.format,
-                              .label = form.name});
-        view.depthTexture = depth_.name();
-        const gl::Framebuffer framebuffer({}, &depth_, form.name);
-        const Program program(
-            "#version 450\nlayout(location = 0) uniform mat4 clipFromMesh;\nlayout(location = 0) in vec3 "
-            "position;\n"
-            "void main() { gl_Position = clipFromMesh * vec4(position, 1.0); }\n",
-            "#version 450\nvoid main() {}\n");
-        GLuint vertexArray = 0;
-        glCreateVertexArrays(1, &vertexArray);
-        glEnableVertexArrayAttrib(vertexArray, 0);
-        glVertexArrayAttribFormat(vertexArray, 0, 3, GL_FLOAT, GL_FALSE, 0);
-        glVertexArrayAttribBinding(vertexArray, 0, 0);
-
-        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer.name());
-        glViewport(0, 0, view.width_px, view.height_px);
-        glClipControl(GL_LOWER_LEFT, fromZero ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
-        glEnable(GL_DEPTH_TEST);
-        glDisable(GL_CULL_FACE);
-        glDisable(GL_SCISSOR_TEST);
-        glDepthFunc(form.convention.reversed ? GL_GREATER : GL_LESS);
-        glDepthMask(GL_TRUE);
-        const float background = form.convention.reversed ? 0.0f : 1.0f;
-        glClearBufferfv(GL_DEPTH, 0, &background);
-        glUseProgram(program.name());
-        glBindVertexArray(vertexArray);
-        for (const Caster& caster : frame.casters) {
-            const glm::mat4 clipFromMesh(glm::dmat4(clipFromView) *
-                                         glm::dmat4(fromPenumbra(view.viewFromWorld)) *
-                                         glm::dmat4(fromPenumbra(caster.worldFromMesh)));
-            glUniformMatrix4fv(0, 1, GL_FALSE, &clipFromMesh[0][0]);
-            glVertexArrayVertexBuffer(vertexArray, 0, caster.mesh->positionBuffer(), 0, 12);
-            glVertexArrayElementBuffer(vertexArray, caster.mesh->indexBuffer());
-            glDrawElements(GL_TRIANGLES, GLsizei(caster.mesh->indices().size()), GL_UNSIGNED_INT, nullptr);
-        }
-        glBindVertexArray(0);
-        glDeleteVertexArrays(1, &vertexArray);
-        return view;
-    }
-
-    /// By `exact`, which has no tolerance for a depth that is not what it should be.
-    Image visibility(ShadowInputs inputs, const DepthForm& form, const Range& range,
-                     bool hasNormals = false) {
-        inputs.view = drawn(inputs, form, range, hasNormals);
-        VisibilityBuffer out(device(), inputs.view.width_px, inputs.view.height_px);
-        workbench().makeTechnique("exact")->render(inputs, out);
-        return workbench().frame().readVisibility(out);
-    }
-
-  private:
-    gl::Texture depth_;
-};
-
-constexpr auto fromZero = DepthConvention::Range::zeroToOne;
-constexpr auto fromMinusOne = DepthConvention::Range::minusOneToOne;
-constexpr DepthForm best = {"reversed float", GL_DEPTH_COMPONENT32F, {fromZero, true}};
-constexpr std::array<DepthForm, 6> usual = {{
-    {"24 bits from 0", GL_DEPTH_COMPONENT24, {fromZero, false}},
-    {"24 bits from -1", GL_DEPTH_COMPONENT24, {fromMinusOne, false}},
-    {"32 bits from 0", GL_DEPTH_COMPONENT32, {fromZero, false}},
-    {"32 bits from -1", GL_DEPTH_COMPONENT32, {fromMinusOne, false}},
-    {"float from 0", GL_DEPTH_COMPONENT32F, {fromZero, false}},
-    {"float from -1", GL_DEPTH_COMPONENT32F, {fromMinusOne, false}},
-}};
-
 TEST_F(HostDepth, ThatIsNotReversedMakesNoSpeckles) {
-    for (const Range& range : {Range{0.23, 23}, Range{0.02, 20}}) {
+    for (const Planes& range : {Planes{0.23, 23}, Planes{0.02, 20}}) {
         const ShadowInputs inputs = drawScene("primitives", {240, 150});
         const View& view = inputs.view;
         const Image normals = readTexture(view.normalTexture, view.width_px, view.height_px, 3);
@@ -145,7 +48,7 @@ TEST_F(HostDepth, OfLargeGroundsShadowsNothing) {
         const RandomGround ground = makeRandomGround(seed);
         const auto seen = [&](const Scene& scene, const DepthForm& form) {
             const float eye_m = glm::length(glm::vec3(scene.at(0).cameras[0].worldFromCamera[3]));
-            return visibility(drawScene(scene, {64, 40}), form, {0.01 * eye_m, 20'000}, true);
+            return visibility(drawScene(scene, {64, 40}), form, Planes{0.01 * eye_m, 20'000}, true);
         };
         for (const DepthForm& form : {best, usual[0], usual[1], usual[4]}) {
             const Image casting = seen(ground.casting, form), receiving = seen(ground.receiving, form);
@@ -155,6 +58,83 @@ TEST_F(HostDepth, OfLargeGroundsShadowsNothing) {
             EXPECT_EQ(darker, 0) << form.name << ", " << ground.description;
         }
     }
+}
+
+double meanOf(const Image& image) {
+    return std::accumulate(image.values.begin(), image.values.end(), 0.0) / double(image.values.size());
+}
+
+TEST_F(HostDepth, PolygonOffsetIsTakenOutAgain) {
+    const Planes range{0.23, 23};
+    const ShadowInputs inputs = drawScene("primitives", {240, 150});
+    for (const DepthForm& form : {usual[0], usual[1], usual[2], usual[5], best}) {
+        std::map<std::string, double> expected;
+        for (const char* technique : {"hard", "pcss", "exact"})
+            expected[technique] = meanOf(visibility(technique, inputs, drawn(inputs, form, range, {})));
+        const float away = form.convention.reversed ? -1 : 1;
+        for (const auto& [factor, units] : {std::pair{0.01f, 0.0f}, {1.0f, 1.0f}, {2.0f, 8.0f}}) {
+            const PolygonOffset offset{away * factor, away * units};
+            View view = drawn(inputs, form, range, offset);
+            view.polygonOffset = offset;
+            for (const auto& [technique, mean] : expected) {
+                EXPECT_NEAR(meanOf(visibility(technique.c_str(), inputs, view)), mean, 0.005)
+                    << technique << ", " << form.name << ", factor " << offset.factor;
+            }
+        }
+    }
+}
+
+TEST_F(HostDepth, PolygonOffsetThatIsNotStatedIsWarnedOfOnce) {
+    int warnings = 0;
+    Device device({.log = [&](LogLevel level, std::string_view) { warnings += level == LogLevel::warning; },
+                   .shared = &this->device()});
+    ShadowInputs inputs = drawScene("two-boxes", {96, 72});
+    const auto technique = penumbra::makeTechnique(device, "hard");
+    VisibilityBuffer out(device, 96, 72);
+    const auto render = [&](bool isOn, const PolygonOffset& stated) {
+        isOn ? glEnable(GL_POLYGON_OFFSET_FILL) : glDisable(GL_POLYGON_OFFSET_FILL);
+        glPolygonOffset(1, 1);
+        inputs.view.polygonOffset = stated;
+        technique->render(inputs, out);
+    };
+    render(false, {});
+    render(true, {1, 1});
+    EXPECT_EQ(warnings, 0);
+    render(true, {});
+    render(true, {});
+    EXPECT_EQ(warnings, 1);
+}
+
+/// A camera and a light at the Earth's radius, with matrices of doubles as OpenSceneGraph has them.
+TEST_F(HostDepth, WorldsAsLargeAsTheEarthLookAsAtTheOrigin) {
+    ShadowInputs inputs = drawScene("primitives", {240, 150});
+    const Image expected = visibility("exact", inputs, inputs.view);
+    const glm::dvec3 place(6.378e6, -1.2e6, 3.4e5);
+    const WorldOrigin origin{place.x + 1, place.y + 2, place.z - 1};
+    const glm::dmat4 shift = glm::translate(glm::dmat4(1), place);
+    const auto columns = [](const glm::dmat4& matrix) { return &matrix[0][0]; };
+    std::vector<Caster> casters(inputs.casters.begin(), inputs.casters.end());
+    for (Caster& caster : casters)
+        caster.worldFromMesh =
+            origin.worldFrom(columns(shift * glm::dmat4(fromPenumbra(caster.worldFromMesh))));
+    inputs.casters = casters;
+    inputs.light.worldFromLight =
+        origin.worldFrom(columns(shift * glm::dmat4(fromPenumbra(inputs.light.worldFromLight))));
+    View view = inputs.view;
+    view.viewFromWorld =
+        origin.fromWorld(columns(glm::dmat4(fromPenumbra(view.viewFromWorld)) * glm::inverse(shift)));
+    const Image seen = visibility("exact", inputs, view);
+    double error = 0;
+    for (std::size_t i = 0; i < seen.values.size(); ++i)
+        error += std::abs(seen.values[i] - expected.values[i]) / double(seen.values.size());
+    EXPECT_LE(error, 0.002);
+}
+
+TEST(MatricesOfHosts, ComeByRowsAndByColumns) {
+    std::array<double, 16> numbers;
+    std::iota(numbers.begin(), numbers.end(), 0.0);
+    EXPECT_EQ(Mat4::fromColumns(numbers.data()).columns[3][1], 13);
+    EXPECT_EQ(Mat4::fromRows(numbers.data()).columns[3][1], 7);
 }
 
 }  // namespace

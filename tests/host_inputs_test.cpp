@@ -65,10 +65,13 @@ TEST_F(HostInputs, SamplingParametersOfTheDepthTextureDoNotMatter) {
     const ShadowInputs inputs = drawScene();
     const Image expected = rendered(inputs);
     const GLuint depth = inputs.view.depthTexture;
-    const std::array<std::pair<GLenum, GLint>, 3> odd = {
+    std::vector<std::pair<GLenum, GLint>> odd = {
         {{GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE},
          {GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR},  // and there are no other levels
+         {GL_TEXTURE_SWIZZLE_R, GL_ALPHA},
+         {GL_TEXTURE_SWIZZLE_A, GL_RED},
          {GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX}}};
+    if (testProfile() == ContextProfile::compatibility) odd.push_back({GL_DEPTH_TEXTURE_MODE, GL_ALPHA});
     for (const auto& [name, value] : odd) glTextureParameteri(depth, name, value);
     EXPECT_EQ(rendered(inputs).values, expected.values);
     for (const auto& [name, value] : odd) {
@@ -81,7 +84,8 @@ TEST_F(HostInputs, SamplingParametersOfTheDepthTextureDoNotMatter) {
 /// A depth texture of four samples that shows the plane y = 0 as the camera sees it at each sample's place.
 class MultisampledPlane {
   public:
-    MultisampledPlane(Device& device, const View& view) {
+    /// `mirrored`: as Mesa has a window's samples.
+    explicit MultisampledPlane(const View& view, bool mirrored = false) {
         constexpr const char* vertex =
             "#version 450\nvoid main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0,"
             " gl_VertexID == 2 ? 3.0 : -1.0, 0.5, 1.0); }\n";
@@ -90,16 +94,18 @@ class MultisampledPlane {
             "layout(location = 0) uniform mat4 worldFromClip;\n"
             "layout(location = 4) uniform mat4 clipFromWorld;\n"
             "layout(location = 8) uniform vec2 size_px;\n"
+            "layout(location = 9) uniform float mirrored;\n"
             "vec3 world(vec2 ndc, float z) { vec4 p = worldFromClip * vec4(ndc, z, 1.0); return p.xyz / p.w; "
             "}\n"
             "void main() {\n"
-            "    vec2 ndc = 2.0 * (floor(gl_FragCoord.xy) + gl_SamplePosition) / size_px - 1.0;\n"
+            "    vec2 place = vec2(gl_SamplePosition.x, mix(gl_SamplePosition.y, 1.0 - gl_SamplePosition.y, "
+            "mirrored));\n"
+            "    vec2 ndc = 2.0 * (floor(gl_FragCoord.xy) + place) / size_px - 1.0;\n"
             "    vec3 a = world(ndc, 1.0), b = world(ndc, 0.5);\n"
             "    vec3 p = a + (b - a) * (a.y / (a.y - b.y));\n"
             "    vec4 clip = clipFromWorld * vec4(p, 1.0);\n"
             "    gl_FragDepth = a.y > 0.0 && b.y < a.y ? clip.z / clip.w : 0.0;\n"
             "}\n";
-        static_cast<void>(device);
         glCreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &texture_);
         glTextureStorage2DMultisample(texture_, 4, GL_DEPTH_COMPONENT32F, view.width_px, view.height_px,
                                       GL_TRUE);
@@ -115,7 +121,10 @@ class MultisampledPlane {
         glProgramUniformMatrix4fv(program.name(), 0, 1, GL_FALSE, &backward[0][0]);
         glProgramUniformMatrix4fv(program.name(), 4, 1, GL_FALSE, &forward[0][0]);
         glProgramUniform2f(program.name(), 8, float(view.width_px), float(view.height_px));
+        glProgramUniform1f(program.name(), 9, mirrored ? 1.0f : 0.0f);
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+        for (GLuint sample = 0; sample < places_.size(); ++sample)
+            glGetMultisamplefv(GL_SAMPLE_POSITION, sample, &places_[sample].x);
         glViewport(0, 0, view.width_px, view.height_px);
         glUseProgram(program.name());
         glBindVertexArray(vertexArray);
@@ -131,16 +140,23 @@ class MultisampledPlane {
     MultisampledPlane& operator=(const MultisampledPlane&) = delete;
     ~MultisampledPlane() { glDeleteTextures(1, &texture_); }
     GLuint texture() const { return texture_; }
+    /// As OpenGL says, which mirrored ones are not.
+    Vec2 placeOf(int sample) const { return places_[std::size_t(sample)]; }
 
   private:
     GLuint texture_ = 0;
+    std::array<Vec2, 4> places_;
 };
 
-TEST_F(HostInputs, EverySampleOfMultisampledDepthIsWhereItIs) {
+class MultisampledDepth : public HostInputs, public ::testing::WithParamInterface<bool> {};
+INSTANTIATE_TEST_SUITE_P(AsInTexturesAndInWindows, MultisampledDepth, ::testing::Bool());
+
+TEST_P(MultisampledDepth, HasEverySampleWhereItIs) {
     // The ground alone casts and receives: whatever is taken for a place beside the sample's lies above or
     // below it, by up to a pixel's slope, and shadows itself.
     ShadowInputs inputs = drawScene({48, 32});
-    const MultisampledPlane plane(device(), inputs.view);
+    const bool mirrored = GetParam();
+    const MultisampledPlane plane(inputs.view, mirrored);
     inputs.view.depthTexture = plane.texture();
     inputs.view.normalTexture = inputs.view.receiverTexture = 0;
     const std::vector<Vec3> corners = {{-50, 0, -50}, {50, 0, -50}, {50, 0, 50}, {-50, 0, 50}};
@@ -150,6 +166,8 @@ TEST_F(HostInputs, EverySampleOfMultisampledDepthIsWhereItIs) {
     inputs.casters = casters;
     for (int sample = 0; sample < 4; ++sample) {
         inputs.view.sample = sample;
+        const Vec2 place = plane.placeOf(sample);
+        if (mirrored) inputs.view.samplePlace = Vec2{place.x, 1 - place.y};
         const Image seen = rendered(inputs, "hard");
         // Not the topmost rows: there a pixel's depth says little about where near the horizon it is.
         const auto shadowed = std::count_if(seen.values.begin() + 8 * seen.width_px, seen.values.end(),

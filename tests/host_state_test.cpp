@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Living in somebody else's context: nothing of its state is trusted, and all of it is as before.
 #include <array>
-#include <optional>
-#include <thread>
 
 #include "src/gl/texture.h"
 #include "studio/scene/builtin/builtin.h"
@@ -94,6 +92,41 @@ TEST_F(HostTest, ActiveTransformFeedbackIsRefused) {
     EXPECT_NO_THROW(technique->render(inputs, out));
 }
 
+TEST_F(HostTest, WhatCompatibilityContextsCanBeAmidstIsRefused) {
+    if (testProfile() == ContextProfile::core) GTEST_SKIP() << "core contexts have none of it";
+    const ShadowInputs inputs = drawScene();
+    const auto technique = workbench().makeTechnique("hard");
+    VisibilityBuffer out(device(), inputs.view.width_px, inputs.view.height_px);
+    const auto messageOf = [&] {
+        try {
+            technique->render(inputs, out);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("nothing was thrown");
+    };
+    const GLuint list = glGenLists(1);
+    glNewList(list, GL_COMPILE);
+    EXPECT_NE(messageOf().find("glEndList"), std::string::npos);
+    glEndList();
+    std::array<GLuint, 64> selected{};
+    glSelectBuffer(GLsizei(selected.size()), selected.data());
+    for (const GLenum mode : {GL_SELECT, GL_FEEDBACK}) {
+        if (mode == GL_FEEDBACK) {
+            static std::array<GLfloat, 64> fedBack;
+            glFeedbackBuffer(GLsizei(fedBack.size()), GL_3D, fedBack.data());
+        }
+        glRenderMode(mode);
+        EXPECT_NE(messageOf().find("glRenderMode"), std::string::npos);
+        EXPECT_EQ(glRenderMode(GL_RENDER), 0) << "something was drawn";
+    }
+    EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR));
+    glBegin(GL_TRIANGLES);
+    EXPECT_NE(messageOf().find("glEnd"), std::string::npos);
+    glEnd();
+    EXPECT_NO_THROW(technique->render(inputs, out));
+}
+
 TEST_F(HostTest, OptingOutChangesStateButTrustsNoneOfIt) {
     const ShadowInputs inputs = drawScene();
     VisibilityBuffer expected(device(), inputs.view.width_px, inputs.view.height_px);
@@ -113,65 +146,6 @@ TEST_F(HostTest, OptingOutChangesStateButTrustsNoneOfIt) {
 TEST_F(HostTest, TheHostsErrorsAreNotTakenForOurs) {
     glEnable(GL_TEXTURE_2D_ARRAY);  // an error that the host does not ask for
     EXPECT_NO_THROW(VisibilityBuffer(device(), 8, 8));
-}
-
-/// Two threads, each with a context, a device and a scene of its own, at the same time.
-TEST(ContextsTest, TwoRenderAtOnce) {
-    const auto picture = [](const char* sceneName, const char* technique) {
-        Workbench workbench;
-        const Scene scene = makeBuiltin(sceneName);
-        const SceneMoment moment = scene.at(0);
-        workbench.open(scene);
-        const auto made = workbench.makeTechnique(technique);
-        for (int frame = 0; frame < 2; ++frame) {
-            workbench.run(technique, *made, moment, moment.cameras.front(), {96, 72});
-        }
-        return workbench.run(technique, *made, moment, moment.cameras.front(), {96, 72})
-            .lights.front()
-            .visibility.values;
-    };
-    const auto first = picture("two-boxes", "pcss"), second = picture("primitives", "soft-volumes");
-    std::vector<float> firstAtOnce, secondAtOnce;
-    std::thread a([&] { firstAtOnce = picture("two-boxes", "pcss"); });
-    std::thread b([&] { secondAtOnce = picture("primitives", "soft-volumes"); });
-    a.join();
-    b.join();
-    EXPECT_EQ(firstAtOnce, first);
-    EXPECT_EQ(secondAtOnce, second);
-    TechniqueTest::workbench().makeCurrent();
-}
-
-/// The same calls, interleaved on one thread.
-TEST(ContextsTest, TwoTakeTurnsOnOneThread) {
-    struct Host {
-        Workbench workbench;
-        std::unique_ptr<Technique> technique;
-        std::vector<float> picture;
-    };
-    const Scene scene = makeBuiltin("two-boxes");
-    const SceneMoment moment = scene.at(0);
-    std::array<std::optional<Host>, 2> hosts;
-    for (int round = 0; round < 3; ++round) {
-        for (std::optional<Host>& host : hosts) {
-            if (!host) {
-                host.emplace();
-                host->workbench.open(scene);
-                host->technique = host->workbench.makeTechnique("adaptive");
-            }
-            host->workbench.makeCurrent();
-            host->picture =
-                host->workbench.run("adaptive", *host->technique, moment, moment.cameras.front(), {64, 48})
-                    .lights.front()
-                    .visibility.values;
-        }
-    }
-    EXPECT_EQ(hosts[0]->picture, hosts[1]->picture);
-    for (std::optional<Host>& host : hosts) {
-        host->workbench.makeCurrent();
-        EXPECT_EQ(host->workbench.device().severeMessageCount(), 0);
-        host.reset();
-    }
-    TechniqueTest::workbench().makeCurrent();
 }
 
 }  // namespace

@@ -127,39 +127,65 @@ TEST_F(Installed, ServesAHostWithAWindow) {
 }
 
 /// Asked of CMake where it looks itself.
-bool hasVtk() {
+bool hasPackage(const std::string& package) {
     const std::string probe =
-        "printf 'cmake_minimum_required(VERSION 3.25)\nproject(probe LANGUAGES C CXX)\nfind_package(VTK 9 "
-        "REQUIRED "
-        "COMPONENTS CommonCore)\n' >$d/CMakeLists.txt && cmake -S $d -B $d/build";
+        "printf 'cmake_minimum_required(VERSION 3.25)\nproject(probe LANGUAGES C CXX)\n"
+        "find_package(" +
+        package + " REQUIRED)\n' >$d/CMakeLists.txt && cmake -S $d -B $d/build";
     return std::system(
                ("d=$(mktemp -d) && { (" + probe + ") >/dev/null 2>&1; s=$?; rm -r $d; exit $s; }").c_str()) ==
            0;
 }
 
-TEST_F(Installed, ServesVtk) {
-    if (std::system("which xvfb-run >/dev/null 2>&1") != 0) GTEST_SKIP() << "xvfb-run is missing";
-    if (!hasVtk()) GTEST_SKIP() << "VTK 9 is missing (libvtk9-dev)";
-    ASSERT_TRUE(buildProject(source("examples/vtk_client"), "vtk"));
-    const auto picture = [&](const std::string& name, const std::string& flags) {
-        EXPECT_TRUE(run("xvfb-run -a " + at("vtk/vtk_client") + " --screenshot " + at(name) + " " + flags));
-        return readPng(at(name)).image;
-    };
-    const Image plain = picture("plain.png", "--no-shadows");
-    const Image shadowed = picture("shadowed.png", "--technique exact");
+/// Somebody else's renderer, with and without shadows: they darken, and change nothing else.
+void expectShadows(const Image& plain, const Image& shadowed) {
     ASSERT_EQ(plain.values.size(), shadowed.values.size());
     std::size_t same = 0, darker = 0, between = 0;
     for (std::size_t i = 0; i < plain.values.size(); ++i) {
         const float ratio = shadowed.values[i] / std::max(plain.values[i], 1.0f / 255);
         same += ratio > 0.985f;
-        darker += ratio < 0.2f;
-        between += ratio > 0.25f && ratio < 0.9f;
+        darker += ratio < 0.27f;  // the share of other lights is 0.25 in the examples, 0.16 in VTK's
+        between += ratio > 0.3f && ratio < 0.9f;
         EXPECT_LE(shadowed.values[i], plain.values[i] + 1.5f / 255) << "light where there was none";
     }
     const double all = double(plain.values.size());
-    EXPECT_GT(double(same) / all, 0.5) << "what sees the lamp is as VTK drew it";
+    EXPECT_GT(double(same) / all, 0.5) << "what sees the lamp is as the host drew it";
     EXPECT_GT(double(darker) / all, 0.01) << "umbra";
     EXPECT_GT(double(between) / all, 0.01) << "penumbra";
+}
+
+struct Host {
+    const char* name;
+    const char* package;  ///< of CMake's; where it is missing there is nothing to test
+    const char* debian;
+    const char* plain;     ///< arguments for a picture without shadows, behind its path
+    const char* shadowed;  ///< with
+    const char* picture;   ///< the flag before its path
+};
+class Hosts : public Installed, public ::testing::WithParamInterface<Host> {};
+INSTANTIATE_TEST_SUITE_P(Examples, Hosts,
+                         ::testing::Values(Host{"vtk_client", "VTK 9 COMPONENTS CommonCore", "libvtk9-dev",
+                                                "--no-shadows", "--technique exact", "--screenshot "},
+                                           Host{"qt_host", "Qt5 COMPONENTS Widgets", "qtbase5-dev",
+                                                "--no-shadows", "--technique exact", "--screenshot "},
+                                           Host{"osg_host", "OpenSceneGraph 3.6 COMPONENTS osgViewer",
+                                                "libopenscenegraph-dev", "--no-shadows", "--technique exact",
+                                                "--screenshot "},
+                                           Host{"coin_host", "Coin 4", "libcoin-dev", "none", "exact", ""}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST_P(Hosts, AreServed) {
+    const Host& host = GetParam();
+    const std::string name = host.name;
+    if (std::system("which xvfb-run >/dev/null 2>&1") != 0) GTEST_SKIP() << "xvfb-run is missing";
+    if (!hasPackage(host.package)) GTEST_SKIP() << host.debian << " is missing";
+    ASSERT_TRUE(buildProject(source("examples/" + name), name));
+    const auto picture = [&](const std::string& file, const std::string& flags) {
+        EXPECT_TRUE(run("xvfb-run -a -s '-screen 0 1280x1024x24' " + at(name + "/" + name) + " " +
+                        host.picture + at(file) + " " + flags));
+        return readPng(at(file)).image;
+    };
+    expectShadows(picture("plain.png", host.plain), picture("shadowed.png", host.shadowed));
 }
 
 }  // namespace

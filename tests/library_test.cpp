@@ -3,7 +3,7 @@
 #include <cmath>
 #include <thread>
 
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 #include "src/gl/texture.h"
 #include "studio/frame/conversions.h"
 #include "studio/scene/builtin/builtin.h"
@@ -184,7 +184,7 @@ TEST_F(LibraryTest, SeveralDevicesLiveSideBySide) {
     const Scene scene = makeBuiltin("two-boxes");
     const LightResult expected = render("hard", scene);
     {
-        Workbench other;
+        Workbench other(std::nullopt, testProfile());
         other.open(scene);
         const SceneMoment moment = scene.at(0);
         const auto hard = other.makeTechnique("hard");

@@ -14,7 +14,7 @@ room=${1:-} technique=${2:-}
 [[ $technique =~ ^[a-z][a-z0-9-]*$ ]] || fail "TECHNIQUE must be lower case, with hyphens: ./dev room FOLDER TECHNIQUE"
 folder=src/techniques/$room
 [ ! -e "$folder" ] || fail "$folder is there already"
-! grep -q "{\"$technique\"," src/techniques/catalog.cpp || fail "there is a technique '$technique' already"
+! grep -q "{\"$technique\"," src/catalog.cpp || fail "there is a technique '$technique' already"
 file=${technique//-/_}
 class=$(sed -E 's/(^|-)([a-z])/\U\2/g' <<<"$technique")
 
@@ -65,7 +65,7 @@ cat >"$folder/$file.cpp" <<EOF
 // SPDX-License-Identifier: Apache-2.0
 #include "$folder/$file.h"
 
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 
 namespace penumbra {
 
@@ -74,7 +74,6 @@ $class::$class(Device& device) : resolve_(device.internals().shaders, {"$folder/
 void $class::describe(ParameterVisitor&) {}
 
 void $class::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
-    checkInputs(inputs, out);
     const auto pass = timers_.pass("$technique/resolve");
     resolve_.use();
     view_.bind(inputs.view, lightFromWorld(inputs));
@@ -124,12 +123,12 @@ TEST_F(${class}Test, CastsTheShadowsThatRaysFind) {
 EOF
 
 # The catalog lists techniques; CMake finds rooms by itself.
-sed -i "0,/^#include \"src\/techniques\//s//#include \"src\/techniques\/$room\/$file.h\"\n&/" src/techniques/catalog.cpp
+sed -i "0,/^#include \"src\/techniques\//s//#include \"src\/techniques\/$room\/$file.h\"\n&/" src/catalog.cpp
 sed -i "/^constexpr std::array entries/,/^};\$/ s/^};\$/    Entry{{\"$technique\", \"what it does, in one line (author year)\", 0.30f}, make<$class>},\n};/" \
-    src/techniques/catalog.cpp
+    src/catalog.cpp
 
 cat <<EOF
-Made $folder, and two lines in src/techniques/catalog.cpp. (Without both there is no such room.)
+Made $folder, and two lines in src/catalog.cpp. (Without both there is no such room.)
 Now, until it passes:
     ./dev build -DPENUMBRA_TESTS=ON && build/${room}_test
 What to do then: docs/adding-a-technique.md

@@ -26,8 +26,8 @@ struct HostVectors {
     std::size_t stride_bytes = 0;  ///< from one to the next, a multiple of four; 0: tightly packed
 };
 
-/// A triangle mesh on the device, and its copy on the CPU. Move-only; frees its buffers when destroyed, for
-/// which the context it was made in must be current (but see Device::abandon).
+/// A triangle mesh on the device, and its copy on the CPU. Move-only; frees its buffers when destroyed. One
+/// that was moved from can be destroyed and assigned to; all else throws Error::Kind::badArgument.
 class PENUMBRA_API Mesh {
   public:
     /// What a mesh is made of. The spans are copied.
@@ -71,7 +71,7 @@ class PENUMBRA_API Mesh {
     /// misplaces their shadow, no more. Throws Error::Kind::badArgument where the buffer is too small.
     void deform(const HostVectors& positions, const Box& bounds);
 
-    /// Unique among the meshes of a device, and never used again.
+    /// Unique among the meshes of a device and of those that share objects with it, and never used again.
     std::uint64_t id() const;
 
     /// After a `deform` from a buffer the first call fetches the positions from the device, and waits. (The
@@ -91,7 +91,8 @@ class PENUMBRA_API Mesh {
     std::uint32_t indexBuffer() const;
 
     struct Internals;
-    Internals& internals() const { return *internals_; }
+    /// Throws Error::Kind::badArgument where the mesh was moved from.
+    Internals& internals() const;
 
   private:
     Mesh();
@@ -112,7 +113,9 @@ struct AlphaMask {
 /// An object in the scene. Both sides of every triangle block light.
 struct Caster {
     const Mesh* mesh = nullptr;  ///< borrowed for the duration of a render call
-    Mat4 worldFromMesh;          ///< affine; mirrored and non-uniform scales are legal
+    /// Affine: its last row is 0 0 0 1. Mirrored and non-uniform scales are legal; where a scale is 0, what
+    /// is left of the mesh casts.
+    Mat4 worldFromMesh;
     AlphaMask alphaMask;
     bool casts = true;     ///< false: blocks no light
     bool receives = true;  ///< false: its pixels are not shadowed (see View::receiverTexture)

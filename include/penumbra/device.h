@@ -20,12 +20,12 @@ namespace penumbra {
 class PENUMBRA_API Error : public std::runtime_error {
   public:
     enum class Kind {
-        noOpenGL,     ///< no current context, or one that lacks what Penumbra needs
+        noOpenGL,  ///< no current context, another than the device's, or one that lacks what Penumbra needs
         badArgument,  ///< a value outside its documented range
         unknownName,  ///< no technique or parameter of that name
         shader,       ///< a shader does not compile or link; the message names file and line
         outOfMemory,  ///< the device has no room for a resource; the message says for what and how large
-        lostContext,  ///< the device was given up with Device::abandon
+        lostContext,  ///< the device was given up with Device::abandon, destroyed, or moved from
     };
     Error(Kind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
     Kind kind() const { return kind_; }
@@ -49,23 +49,40 @@ struct DeviceOptions {
     /// call. False: nothing is put back, for hosts that set all their state for each pass anyway. Neither way
     /// does the library depend on what it finds.
     bool keepHostState = true;
+
+    /// True: the first call of each technique's is looked at by penumbra::diagnose, and what that finds is
+    /// logged as a warning. For debug builds.
+    bool diagnose = false;
+
+    /// A device on a context that shares objects with this one's, as the host has made them: meshes of either
+    /// are then casters for the techniques of both. Needed while the new device is made, no longer.
+    const class Device* shared = nullptr;
 };
 
 /// Penumbra on one OpenGL 4.5 context, which must be current on the calling thread whenever a call of the
-/// library is made on this device or on what was made with it. Several devices, each on its own context, may
-/// live in a process.
+/// library is made on this device or on what was made with it: where another one is, or none, calls throw
+/// Error::Kind::noOpenGL. Several devices, each on its own context, may live in a process.
+///
+/// Threads: a device and all that was made on it are used by one thread at a time, that on which the context
+/// is current; different devices by different threads at the same time. Reading what `describe`,
+/// `techniqueCatalog` and the like have given needs no context and no thread of its own.
+///
+/// Destroying needs no context: what was made on a context that is not current when it is destroyed is
+/// deleted the next time the device is used, or goes with the context.
 class PENUMBRA_API Device {
   public:
     /// Throws Error::Kind::noOpenGL unless an OpenGL 4.5 core (or compatibility) context is current.
     explicit Device(DeviceOptions options = {});
-    /// Devices outlive the techniques made on them; meshes and visibility buffers may live longer.
+    /// What was made on a device follows it when it is moved. Of one that was moved from, or destroyed, the
+    /// techniques, meshes and visibility buffers can be destroyed, and throw Error::Kind::lostContext when
+    /// used.
     Device(Device&&) noexcept;
     Device& operator=(Device&&) noexcept;
     ~Device();
 
-    const std::string& renderer() const;  ///< GL_RENDERER
-    const std::string& version() const;   ///< GL_VERSION
-    bool isSoftware() const;              ///< a CPU rasteriser such as llvmpipe: GPU timers mean CPU time
+    const std::string& renderer() const;       ///< GL_RENDERER
+    const std::string& openGLVersion() const;  ///< GL_VERSION; Penumbra's own is in penumbra/version.h
+    bool isSoftware() const;  ///< a CPU rasteriser such as llvmpipe: GPU timers mean CPU time
     int maxTextureSize_px() const;
 
     /// Number of driver messages of high severity, or of type error or undefined behaviour, since the device
@@ -86,10 +103,13 @@ class PENUMBRA_API Device {
     void reloadShaders();
 
     struct Internals;
-    Internals& internals() const { return *internals_; }
+    /// Throws Error::Kind::lostContext where the device was moved from.
+    Internals& internals() const;
 
   private:
-    std::unique_ptr<Internals> internals_;
+    explicit Device(std::shared_ptr<Internals> internals);
+    std::shared_ptr<Internals> internals_;
+    bool isTheHosts_ = true;  ///< what is made on a device may have a Device of its own, to the same end
 };
 
 }  // namespace penumbra

@@ -12,7 +12,7 @@
 
 namespace penumbra {
 
-/// What a person needs to know about a parameter.
+/// What a person needs to know about a parameter. Its strings, and the names of a choice, are valid for ever.
 struct ParameterInfo {
     std::string_view name;       ///< snake_case, as in `--set name=value`
     std::string_view unit = "";  ///< "texels", "m", "deg", ...; empty for a pure number

@@ -4,9 +4,12 @@
 
 #include "penumbra/caster.h"
 #include "penumbra/device.h"
+#include "penumbra/diagnose.h"
+#include "penumbra/framebuffer.h"
 #include "penumbra/light.h"
 #include "penumbra/math.h"
 #include "penumbra/parameters.h"
 #include "penumbra/promise.h"
 #include "penumbra/technique.h"
+#include "penumbra/version.h"
 #include "penumbra/view.h"

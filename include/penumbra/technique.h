@@ -22,6 +22,8 @@ namespace penumbra {
 /// umbra. The fraction is of the light's emitting area above the surface's horizon (a distant light's and a
 /// sphere's: of the solid angle that they show), with no cosine and no distance weight. Where none of the
 /// light is above the horizon it is 0.
+///
+/// A buffer that was moved from can be destroyed and assigned to; all else throws Error::Kind::badArgument.
 class PENUMBRA_API VisibilityBuffer {
   public:
     /// Makes its own texture: GL_R32F, or GL_RGBA16F (alpha unused) for a textured light. Both sizes >= 1.
@@ -54,9 +56,11 @@ class PENUMBRA_API VisibilityBuffer {
     std::uint32_t texture() const;  ///< owned by the buffer, or the host's
 
     struct Internals;
-    Internals& internals() const { return *internals_; }
+    /// Throws Error::Kind::badArgument where the buffer was moved from.
+    Internals& internals() const;
 
   private:
+    VisibilityBuffer();
     std::unique_ptr<Internals> internals_;
 };
 
@@ -67,14 +71,14 @@ struct ShadowInputs {
 };
 
 struct Statistic {
-    std::string_view name;  ///< "maps", "silhouette edges", ...
+    std::string_view name;  ///< "maps", "silhouette edges", ...; valid for ever
     double value = 0;
     std::string_view unit = "";
 };
 
 /// Device time of a pass, from timer queries. Taken without waiting, so that it lags some frames behind.
 struct PassTime {
-    std::string_view name;
+    std::string_view name;  ///< valid for ever
     double milliseconds = 0;
 };
 
@@ -91,7 +95,7 @@ struct Statistics {
 
 /// How an intermediate buffer is best shown.
 struct InspectedTexture {
-    std::string_view name;      ///< "depth map", "shadow-width map", ...
+    std::string_view name;      ///< "depth map", "shadow-width map", ...; valid for ever
     std::uint32_t texture = 0;  ///< GL_TEXTURE_2D or GL_TEXTURE_2D_ARRAY, owned by the technique
     int layers = 1;
     float black = 0;  ///< the value to show as black
@@ -104,13 +108,14 @@ class PENUMBRA_API InspectionVisitor {
     virtual void texture(const InspectedTexture& texture) = 0;
 };
 
-/// One way to answer. Keeps what it needs between frames; destroying it frees everything. To be used on the
-/// thread on which its device's context is current.
+/// One way to answer. Keeps what it needs between frames; destroying it frees everything.
 class PENUMBRA_API Technique {
   public:
     virtual ~Technique() = default;
 
-    /// Visits every parameter, in the order in which a person wants to read them.
+    /// Visits every parameter, in the order in which a person wants to read them. A value that the visitor
+    /// leaves outside of the range is put back, and Error::Kind::badArgument thrown. The references that a
+    /// visitor gets are valid during the visit.
     virtual void describe(ParameterVisitor& visitor) = 0;
 
     /// Fills `out`, which has the view's size and is colored where the light is textured. Equal inputs give
@@ -128,6 +133,7 @@ class PENUMBRA_API Technique {
     virtual Statistics statistics() const { return {}; }
 };
 
+/// Its strings are valid for ever.
 struct TechniqueInfo {
     std::string_view name;     ///< as on the command line: "hard"
     std::string_view summary;  ///< one line

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "penumbra/math.h"
 
@@ -19,6 +20,13 @@ struct DepthConvention {
     bool reversed = true;
 };
 
+/// `glPolygonOffset(factor, units)`, as it was set, and on, while a host's depths were drawn: many CAD hosts
+/// have (1, 1) for ever, so that lines on surfaces are seen. Both 0: none.
+struct PolygonOffset {
+    float factor = 0, units = 0;
+    bool operator==(const PolygonOffset&) const = default;
+};
+
 /// The receivers: what the host's camera sees, one surface point a pixel.
 struct View {
     int width_px = 0;   ///< of the picture, >= 1
@@ -31,6 +39,11 @@ struct View {
     /// place; a host that shades every sample calls once for each.
     int sample = 0;
 
+    /// Where in the pixel that sample lies, from the pixel's lower left corner, in [0, 1]. None: where OpenGL
+    /// says of the texture. To be stated where the samples were copied out of a window's framebuffer, whose
+    /// places Mesa mirrors: there it is (x, 1 - y) of what GL_SAMPLE_POSITION says of the texture.
+    std::optional<Vec2> samplePlace;
+
     Mat4 viewFromWorld;  ///< rigid: rotation and translation only
     Mat4 clipFromView;   ///< perspective or orthographic, finite or infinite; must be invertible
 
@@ -38,6 +51,7 @@ struct View {
     /// format whose red channel holds such depths. Its sampling parameters do not matter.
     std::uint32_t depthTexture = 0;
     DepthConvention depth;
+    PolygonOffset polygonOffset;  ///< is taken out of the depths again
 
     /// As the depth texture, single- or multisampled, borrowed, optional (0: normals are derived from the
     /// depth). RGB is the *geometric* world-space normal of the surface, unit length, on the side that the

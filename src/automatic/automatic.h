@@ -10,7 +10,7 @@
 #include "penumbra/promise.h"
 #include "penumbra/technique.h"
 #include "src/automatic/budget_keeper.h"
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 #include "src/gl/pass_timers.h"
 
 namespace penumbra {

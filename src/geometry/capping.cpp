@@ -71,18 +71,18 @@ std::vector<std::uint32_t> capHoles(const EdgeTopology& topology) {
     return caps;
 }
 
-const Mesh& cappedOf(Device& device, const Mesh& mesh) {
+const Mesh& cappedOf(Device::Internals& device, const Mesh& mesh) {
     Mesh::Internals& internals = mesh.internals();
     if (!internals.capped) {
         std::vector<std::uint32_t> indices = capHoles(findEdges(mesh.positions(), mesh.indices()));
         indices.insert(indices.begin(), mesh.indices().begin(), mesh.indices().end());
-        internals.capped =
-            std::make_unique<Mesh>(device, Mesh::Source{.positions = mesh.positions(), .indices = indices});
+        internals.capped = std::make_unique<Mesh>(
+            Mesh::Internals::make(device, {.positions = mesh.positions(), .indices = indices}));
         internals.cappedRevision = mesh.revision();
     }
     if (internals.capped->indices().size() == mesh.indices().size()) return mesh;
     if (internals.cappedRevision != mesh.revision()) {
-        internals.capped->deform({.buffer = mesh.positionBuffer()}, mesh.bounds());
+        internals.capped->internals().deform(device, {.buffer = mesh.positionBuffer()}, mesh.bounds());
         internals.cappedRevision = mesh.revision();
     }
     return *internals.capped;

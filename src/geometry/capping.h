@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "penumbra/caster.h"
+#include "src/device/device_internals.h"
 #include "src/geometry/edge_topology.h"
 
 namespace penumbra {
@@ -17,6 +18,6 @@ std::vector<std::uint32_t> capHoles(const EdgeTopology& topology);
 
 /// The mesh with its holes capped, or itself if it has none. Made at the first call, kept for as long as the
 /// mesh lives, and deformed with it.
-const Mesh& cappedOf(Device& device, const Mesh& mesh);
+const Mesh& cappedOf(Device::Internals& device, const Mesh& mesh);
 
 }  // namespace penumbra

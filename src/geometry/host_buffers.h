@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "penumbra/caster.h"
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 #include "src/gl/buffer.h"
 
 namespace penumbra {

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "penumbra/device.h"
+#include "src/device/host_scope.h"
 #include "src/geometry/host_buffers.h"
 #include "src/geometry/mesh_internals.h"
-#include "src/hosting/host_scope.h"
 
 namespace penumbra {
 namespace {
@@ -46,22 +46,27 @@ void requireTriangles(std::span<const std::uint32_t> indices, std::size_t vertex
 
 Mesh::Mesh() : internals_(std::make_unique<Internals>()) {}
 
-Mesh::Mesh(Device& device, const Source& source) : Mesh() {
-    device.internals().requireContext();
+Mesh Mesh::Internals::make(Device::Internals& device, const Source& source) {
+    device.requireContext();
     requireFinite(source.positions);
     requireTriangles(source.indices, source.positions.size());
     require(source.uvs.empty() || source.uvs.size() == source.positions.size(),
             "the number of uvs is not that of the positions");
-    const gl::LedgerScope scope(device.internals().ledger);
-    internals_->enter(device.internals());
-    internals_->positions.assign(source.positions.begin(), source.positions.end());
-    internals_->indices.assign(source.indices.begin(), source.indices.end());
-    internals_->uvs.assign(source.uvs.begin(), source.uvs.end());
-    if (!source.indices.empty()) internals_->bounds = boundsOf(source.positions);
-    internals_->positionBuffer = gl::Buffer(std::as_bytes(source.positions), "mesh positions");
-    internals_->indexBuffer = gl::Buffer(std::as_bytes(source.indices), "mesh indices");
-    if (!source.uvs.empty()) internals_->uvBuffer = gl::Buffer(std::as_bytes(source.uvs), "mesh uvs");
+    const gl::LedgerScope scope(device.ledger);
+    Mesh mesh;
+    Internals& made = *mesh.internals_;
+    made.enter(device);
+    made.positions.assign(source.positions.begin(), source.positions.end());
+    made.indices.assign(source.indices.begin(), source.indices.end());
+    made.uvs.assign(source.uvs.begin(), source.uvs.end());
+    if (!source.indices.empty()) made.bounds = boundsOf(source.positions);
+    made.positionBuffer = gl::Buffer(std::as_bytes(source.positions), "mesh positions");
+    made.indexBuffer = gl::Buffer(std::as_bytes(source.indices), "mesh indices");
+    if (!source.uvs.empty()) made.uvBuffer = gl::Buffer(std::as_bytes(source.uvs), "mesh uvs");
+    return mesh;
 }
+
+Mesh::Mesh(Device& device, const Source& source) : Mesh(Internals::make(device.internals(), source)) {}
 
 Mesh Mesh::fromBuffers(Device& device, const HostSource& source) {
     const HostScope scope(device.internals());
@@ -89,65 +94,72 @@ Mesh Mesh::fromBuffers(Device& device, const HostSource& source) {
     return mesh;
 }
 
+Mesh::Internals& Mesh::internals() const {
+    if (internals_) return *internals_;
+    throw Error(Error::Kind::badArgument, "Mesh: it was moved from: use the Mesh that it was moved to");
+}
+
 Mesh::Mesh(Mesh&&) noexcept = default;
 Mesh& Mesh::operator=(Mesh&&) noexcept = default;
 Mesh::~Mesh() = default;
 
 void Mesh::deform(std::span<const Vec3> positions) {
-    internals_->device->requireContext();
-    require(positions.size() == internals_->positions.size(),
+    internals().device->requireContext();
+    require(positions.size() == internals().positions.size(),
             "deform: as many positions as at first are needed");
     requireFinite(positions);
-    std::ranges::copy(positions, internals_->positions.begin());
-    internals_->positionsAreStale = false;
-    if (!internals_->indices.empty()) internals_->bounds = boundsOf(positions);
-    if (!positions.empty()) internals_->positionBuffer.write(std::as_bytes(positions));
-    ++internals_->revision;
+    std::ranges::copy(positions, internals().positions.begin());
+    internals().positionsAreStale = false;
+    if (!internals().indices.empty()) internals().bounds = boundsOf(positions);
+    if (!positions.empty()) internals().positionBuffer.write(std::as_bytes(positions));
+    ++internals().revision;
+}
+
+void Mesh::Internals::deform(Device::Internals& device, const HostVectors& from, const Box& box) {
+    require(isFinite(box.min) && isFinite(box.max) && box.min.x <= box.max.x && box.min.y <= box.max.y &&
+                box.min.z <= box.max.z,
+            "deform: the bounds are not finite or empty");
+    gatherVectors(device, from, positions.size(), 3, positionBuffer, "deform");
+    positionsAreStale = true;
+    if (!indices.empty()) bounds = box;
+    ++revision;
 }
 
 void Mesh::deform(const HostVectors& positions, const Box& bounds) {
-    internals_->device->requireContext();
-    require(isFinite(bounds.min) && isFinite(bounds.max) && bounds.min.x <= bounds.max.x &&
-                bounds.min.y <= bounds.max.y && bounds.min.z <= bounds.max.z,
-            "deform: the bounds are not finite or empty");
-    const HostScope scope(*internals_->device);
-    gatherVectors(*internals_->device, positions, internals_->positions.size(), 3, internals_->positionBuffer,
-                  "deform");
-    internals_->positionsAreStale = true;
-    if (!internals_->indices.empty()) internals_->bounds = bounds;
-    ++internals_->revision;
+    const HostScope scope(*internals().device);
+    internals().deform(*internals().device, positions, bounds);
 }
 
 std::uint64_t Mesh::id() const {
-    return internals_->id;
+    return internals().id;
 }
 std::span<const Vec3> Mesh::positions() const {
-    if (internals_->positionsAreStale && !internals_->device->ledger->contextLost) {
-        internals_->positionBuffer.read(std::as_writable_bytes(std::span(internals_->positions)));
-        internals_->positionsAreStale = false;
+    if (internals().positionsAreStale && internals().device->ledger->isReachable()) {
+        internals().positionBuffer.read(std::as_writable_bytes(std::span(internals().positions)));
+        internals().positionsAreStale = false;
     }
-    return internals_->positions;
+    return internals().positions;
 }
 std::span<const std::uint32_t> Mesh::indices() const {
-    return internals_->indices;
+    return internals().indices;
 }
 std::span<const Vec2> Mesh::uvs() const {
-    return internals_->uvs;
+    return internals().uvs;
 }
 const Box& Mesh::bounds() const {
-    return internals_->bounds;
+    return internals().bounds;
 }
 std::uint64_t Mesh::revision() const {
-    return internals_->revision;
+    return internals().revision;
 }
 std::uint32_t Mesh::positionBuffer() const {
-    return internals_->positionBuffer.name();
+    return internals().positionBuffer.name();
 }
 std::uint32_t Mesh::uvBuffer() const {
-    return internals_->uvBuffer.name();
+    return internals().uvBuffer.name();
 }
 std::uint32_t Mesh::indexBuffer() const {
-    return internals_->indexBuffer.name();
+    return internals().indexBuffer.name();
 }
 
 }  // namespace penumbra

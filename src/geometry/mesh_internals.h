@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "penumbra/caster.h"
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 #include "src/geometry/edge_mesh.h"
 #include "src/gl/buffer.h"
 
 namespace penumbra {
 
 struct Mesh::Internals {
-    Device::Internals* device = nullptr;
+    std::shared_ptr<Device::Internals> device;
     std::uint64_t id = 0;
     std::vector<Vec3> positions;
     bool positionsAreStale = false;  ///< newer ones are on the device
@@ -26,9 +26,16 @@ struct Mesh::Internals {
     std::unique_ptr<Mesh> capped;           ///< see cappedOf
     std::uint64_t cappedRevision = 0;       ///< of this mesh, when `capped` last followed it
 
+    /// As the public constructor and `deform` do; `device` may be another one that shares objects.
+    static Mesh make(Device::Internals& device, const Source& source);
+    void deform(Device::Internals& device, const HostVectors& positions, const Box& bounds);
+
+    /// Null of one that was moved from.
+    static const Internals* of(const Mesh& mesh) { return mesh.internals_.get(); }
+
     void enter(Device::Internals& owner) {
-        device = &owner;
-        id = ++owner.meshesMade;
+        device = owner.shared_from_this();
+        id = ++owner.shareGroup->meshesMade;
     }
 };
 

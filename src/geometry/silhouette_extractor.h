@@ -9,7 +9,7 @@
 #include <span>
 
 #include "penumbra/caster.h"
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 #include "src/geometry/facing.h"
 #include "src/geometry/silhouettes_io.h"
 #include "src/gl/buffer.h"

@@ -12,7 +12,7 @@
 namespace penumbra::gl {
 
 /// Passes the driver's KHR_debug messages on and counts the severe ones. Installs itself only where the host
-/// has no callback of its own; stays at its address while it is installed.
+/// has no callback of its own.
 class DebugLog {
   public:
     DebugLog(std::function<void(LogLevel, std::string_view)> log, std::shared_ptr<const Ledger> ledger);
@@ -20,15 +20,27 @@ class DebugLog {
     DebugLog& operator=(const DebugLog&) = delete;
     ~DebugLog();
 
-    void write(LogLevel level, std::string_view message) const {
-        if (log_) log_(level, message);
-    }
-    void receive(unsigned type, unsigned severity, std::string_view message);
-    int severeMessageCount() const { return severeMessages_; }
+    /// Forgets the host's function, and gives the context's callback back.
+    void close();
+
+    void write(LogLevel level, std::string_view message) const { sink_->write(level, message); }
+    int severeMessageCount() const { return sink_->severeMessages; }
 
   private:
-    std::function<void(LogLevel, std::string_view)> log_;
-    std::atomic<int> severeMessages_ = 0;
+    /// What the context's callback knows.
+    struct Sink {
+        std::function<void(LogLevel, std::string_view)> log;
+        std::atomic<int> severeMessages = 0;
+        /// Of one that could not be taken out of its context, which may yet call it: it lives on.
+        std::shared_ptr<Sink> itself;
+
+        void write(LogLevel level, std::string_view message) const {
+            if (log) log(level, message);
+        }
+        void receive(unsigned type, unsigned severity, std::string_view message);
+    };
+
+    std::shared_ptr<Sink> sink_ = std::make_shared<Sink>();
     std::shared_ptr<const Ledger> ledger_;
     bool installed_ = false;
 };

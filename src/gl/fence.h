@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "src/gl/gl.h"
 
 namespace penumbra::gl {
@@ -17,6 +19,7 @@ class Fence {
     void set() {
         remove();
         sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+        ledger_ = LedgerScope::current();
     }
     /// False, too, where it was never set.
     bool hasPassed() const {
@@ -27,11 +30,13 @@ class Fence {
 
   private:
     void remove() {
-        if (sync_ != nullptr) glDeleteSync(sync_);
+        // What cannot be deleted goes with its context.
+        if (sync_ != nullptr && (!ledger_ || ledger_->isReachable())) glDeleteSync(sync_);
         sync_ = nullptr;
     }
 
     GLsync sync_ = nullptr;
+    std::shared_ptr<Ledger> ledger_;
 };
 
 }  // namespace penumbra::gl

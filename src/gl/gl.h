@@ -9,6 +9,9 @@
 #include <memory_resource>
 #include <string_view>
 #include <utility>
+#include <vector>
+
+#include "src/gl/current_context.h"
 
 namespace penumbra::gl {
 
@@ -16,6 +19,18 @@ namespace penumbra::gl {
 struct Ledger {
     std::size_t size_bytes = 0;  ///< that objects take
     bool contextLost = false;    ///< names mean nothing any more, and OpenGL must not be called for them
+    ContextIdentity context;     ///< that objects belong to; of none: whichever is current
+
+    /// Objects whose owners were destroyed while the context was not current. They are deleted when it is
+    /// used again, or with it.
+    struct Orphan {
+        void (*destroy)(GLuint);
+        GLuint name;
+    };
+    std::vector<Orphan> orphans;
+
+    /// OpenGL may be called for the objects.
+    bool isReachable() const { return !contextLost && (!context.exists() || context.isCurrent()); }
 
     /// For what a frame needs on the CPU and forgets: it comes back for the next, so that a settled frame
     /// allocates nothing.
@@ -59,7 +74,12 @@ class Handle {
     }
     ~Handle() {
         if (ledger_) ledger_->size_bytes -= size_bytes_;
-        if (name_ != 0 && !(ledger_ && ledger_->contextLost)) Delete(name_);
+        if (name_ == 0 || (ledger_ && ledger_->contextLost)) return;
+        if (ledger_ && !ledger_->isReachable()) {
+            ledger_->orphans.push_back({Delete, name_});
+        } else {
+            Delete(name_);
+        }
     }
     GLuint name() const { return name_; }
 

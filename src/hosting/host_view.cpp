@@ -2,16 +2,13 @@
 #include "src/hosting/host_view.h"
 
 #include <cmath>
-#include <string>
 
-#include "src/techniques/common/glm_types.h"
+#include "src/device/compatibility_state.h"
+#include "src/device/glm_types.h"
+#include "src/gl/texture_target.h"
 
 namespace penumbra {
 namespace {
-
-[[noreturn]] void refuse(const std::string& message) {
-    throw Error(Error::Kind::badArgument, "View: " + message);
-}
 
 GLint levelParameter(GLuint texture, GLenum name) {
     GLint value = 0;
@@ -19,40 +16,12 @@ GLint levelParameter(GLuint texture, GLenum name) {
     return value;
 }
 
-GLint targetOf(GLuint texture) {
-    GLint target = 0;
-    glGetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
-    return target;
-}
-
 bool isMultisampled(GLuint texture) {
-    return targetOf(texture) == GL_TEXTURE_2D_MULTISAMPLE;
+    return gl::targetOf(texture) == GL_TEXTURE_2D_MULTISAMPLE;
 }
 
 glm::ivec2 sizeOf(GLuint texture) {
     return {levelParameter(texture, GL_TEXTURE_WIDTH), levelParameter(texture, GL_TEXTURE_HEIGHT)};
-}
-
-void checkTexture(const char* name, GLuint texture, const View& view) {
-    if (!glIsTexture(texture)) {
-        refuse(std::string(name) + " " + std::to_string(texture) + " is no texture of the current context");
-    }
-    const GLint target = targetOf(texture);
-    if (target != GL_TEXTURE_2D && target != GL_TEXTURE_2D_MULTISAMPLE) {
-        refuse(std::string(name) + " is neither GL_TEXTURE_2D nor GL_TEXTURE_2D_MULTISAMPLE");
-    }
-    const glm::ivec2 size_px = sizeOf(texture);
-    if (view.x_px < 0 || view.y_px < 0 || view.width_px > size_px.x - view.x_px ||
-        view.height_px > size_px.y - view.y_px) {
-        refuse(std::string(name) + " is " + std::to_string(size_px.x) + "x" + std::to_string(size_px.y) +
-               " and does not contain " + std::to_string(view.width_px) + "x" +
-               std::to_string(view.height_px) + " pixels from (" + std::to_string(view.x_px) + ", " +
-               std::to_string(view.y_px) + ")");
-    }
-    if (target == GL_TEXTURE_2D_MULTISAMPLE &&
-        (view.sample < 0 || view.sample >= levelParameter(texture, GL_TEXTURE_SAMPLES))) {
-        refuse(std::string(name) + " has no sample " + std::to_string(view.sample));
-    }
 }
 
 /// How far behind its surface a depth may seem to lie: a step of the format, and what floats have lost. That
@@ -83,14 +52,20 @@ Mat4 shifted(const Mat4& clipFromView, const glm::dvec3& shift) {
 
 ReadableTexture::ReadableTexture(GLuint texture)
     : texture_(texture),
-      parameters_{{{GL_DEPTH_STENCIL_TEXTURE_MODE, GL_DEPTH_COMPONENT, GL_DEPTH_COMPONENT},
-                   {GL_TEXTURE_COMPARE_MODE, GL_NONE, GL_NONE},
-                   {GL_TEXTURE_MIN_FILTER, GL_NEAREST, GL_NEAREST},
-                   {GL_TEXTURE_BASE_LEVEL, 0, 0}}} {
+      parameters_{{{GL_DEPTH_STENCIL_TEXTURE_MODE, GL_DEPTH_COMPONENT},
+                   {GL_TEXTURE_SWIZZLE_R, GL_RED},
+                   {GL_TEXTURE_SWIZZLE_G, GL_GREEN},
+                   {GL_TEXTURE_SWIZZLE_B, GL_BLUE},
+                   {GL_DEPTH_TEXTURE_MODE, GL_RED, Parameter::Of::compatibilityContexts},
+                   {GL_TEXTURE_COMPARE_MODE, GL_NONE, Parameter::Of::singleSamples},
+                   {GL_TEXTURE_MIN_FILTER, GL_NEAREST, Parameter::Of::singleSamples},
+                   {GL_TEXTURE_BASE_LEVEL, 0, Parameter::Of::singleSamples}}} {
+    for (Parameter& parameter : parameters_) parameter.found = parameter.needed;
     if (texture == 0) return;
-    const bool hasSampling = !isMultisampled(texture);
+    const bool multisampled = isMultisampled(texture), compatible = isCompatibilityContext();
     for (Parameter& parameter : parameters_) {
-        if (!hasSampling && parameter.name != GL_DEPTH_STENCIL_TEXTURE_MODE) continue;
+        if (parameter.of == Parameter::Of::singleSamples && multisampled) continue;
+        if (parameter.of == Parameter::Of::compatibilityContexts && !compatible) continue;
         glGetTextureParameteriv(texture, parameter.name, &parameter.found);
         if (parameter.found != parameter.needed)
             glTextureParameteri(texture, parameter.name, parameter.needed);
@@ -104,14 +79,6 @@ ReadableTexture::~ReadableTexture() {
     }
 }
 
-void checkTextures(const View& view) {
-    if (view.width_px < 1 || view.height_px < 1) refuse("width_px and height_px must be at least 1");
-    if (view.depthTexture == 0) refuse("depthTexture is missing");
-    checkTexture("depthTexture", view.depthTexture, view);
-    if (view.normalTexture != 0) checkTexture("normalTexture", view.normalTexture, view);
-    if (view.receiverTexture != 0) checkTexture("receiverTexture", view.receiverTexture, view);
-}
-
 View HostView::prepare(const View& view) {
     View plain = view;
     glm::dvec3 shift(0);
@@ -121,13 +88,26 @@ View HostView::prepare(const View& view) {
     }
     // A depth stands for all that may have become it: the one nearest to the viewer is taken, so that no
     // surface lies behind itself. Without this, 24 bits speckle where techniques compare exactly.
-    const double error = depthError(view.depthTexture, view.depth.reversed);
+    double error = depthError(view.depthTexture, view.depth.reversed);
+    const bool hasOffset = view.polygonOffset != PolygonOffset{};
+    // The slope that is taken away is the difference of two depths, each with an error of its own.
+    if (hasOffset) error *= 1 + 2 * std::abs(double(view.polygonOffset.factor));
     shift.z = error * (view.depth.reversed ? 1 : -1) *
               (view.depth.range == DepthConvention::Range::minusOneToOne ? 2 : 1);
     if (shift != glm::dvec3(0)) plain.clipFromView = shifted(view.clipFromView, shift);
     plain.depthTexture = copied(view.depthTexture, depth_, gl::Format::r32f, view);
+    if (hasOffset) {
+        if (!offsetUndoing_) offsetUndoing_.emplace(device_);
+        plain.depthTexture = offsetUndoing_->run(plain.depthTexture, view);
+        plain.polygonOffset = {};
+    }
     plain.normalTexture = copied(view.normalTexture, normals_, gl::Format::rgba32f, view);
     plain.receiverTexture = copied(view.receiverTexture, receivers_, gl::Format::r8, view);
+    // Techniques bind them by name, as they do a host's.
+    if (plain.depthTexture != view.depthTexture || plain.normalTexture != view.normalTexture ||
+        plain.receiverTexture != view.receiverTexture) {
+        device_.shaders.order()->makeAllVisible();
+    }
     plain.x_px = plain.y_px = plain.sample = 0;
     return plain;
 }
@@ -150,6 +130,7 @@ GLuint HostView::copied(GLuint texture, gl::Texture& copy, gl::Format format, co
 }
 
 glm::dvec2 HostView::samplePlace(const View& view) {
+    if (view.samplePlace) return {view.samplePlace->x, view.samplePlace->y};
     // Places are a framebuffer's to tell.
     if (samples_.name() == 0) {
         GLuint name = 0;

@@ -7,12 +7,13 @@
 #include "penumbra/view.h"
 #include "src/gl/framebuffer.h"
 #include "src/gl/texture.h"
+#include "src/hosting/offset_undoing.h"
 #include "src/hosting/texture_copy.h"
 
 namespace penumbra {
 
 /// Makes a texture of the host's readable with texelFetch while it lives, whatever its sampling parameters
-/// say of comparison, stencil or missing levels.
+/// say of comparison, stencil, order of channels or missing levels.
 class ReadableTexture {
   public:
     explicit ReadableTexture(GLuint texture);
@@ -22,22 +23,22 @@ class ReadableTexture {
 
   private:
     struct Parameter {
+        enum class Of { all, singleSamples, compatibilityContexts };
         GLenum name;
-        GLint needed, found;
+        GLint needed;
+        Of of = Of::all;  ///< where it exists
+        GLint found = 0;
     };
     GLuint texture_;
-    std::array<Parameter, 4> parameters_;
+    std::array<Parameter, 8> parameters_;
 };
-
-/// Throws Error::Kind::badArgument where a texture is missing or does not contain the picture.
-void checkTextures(const View& view);
 
 class HostView {
   public:
     explicit HostView(Device::Internals& device) : device_(device) {}
 
-    /// The view in the form that techniques know, copied only where it has to be. Its textures must pass
-    /// `checkTextures` and be readable.
+    /// The view in the form that techniques know, copied only where it has to be. It must pass
+    /// `checkInputs`, and its textures be readable.
     View prepare(const View& view);
 
   private:
@@ -46,6 +47,7 @@ class HostView {
 
     Device::Internals& device_;
     std::optional<TextureCopy> copy_;  ///< most hosts never need it
+    std::optional<OffsetUndoing> offsetUndoing_;
     gl::Texture depth_, normals_, receivers_;
     gl::Handle<gl::deleteFramebuffer> samples_;
 };

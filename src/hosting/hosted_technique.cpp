@@ -1,21 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/hosting/hosted_technique.h"
 
-#include "src/hosting/host_scope.h"
+#include <utility>
+
+#include "src/device/host_scope.h"
+#include "src/device/input_checks.h"
+#include "src/device/visibility_internals.h"
+#include "src/geometry/caster_checks.h"
+#include "src/hosting/diagnose_in_scope.h"
 #include "src/techniques/common/view_constants.h"
-#include "src/techniques/common/visibility_internals.h"
 
 namespace penumbra {
 
 HostedTechnique::HostedTechnique(Device& device, std::unique_ptr<Technique> (*make)(Device&))
-    : device_(device), view_(device.internals()) {
-    const HostScope scope(device.internals());
-    technique_ = make(device);
+    : device_(Device::Internals::handle(device.internals())), view_(device_.internals()) {
+    const HostScope scope(device_.internals());
+    technique_ = make(device_);
+}
+
+void HostedTechnique::describe(ParameterVisitor& visitor) {
+    describeGuarded(*technique_, visitor);
 }
 
 void HostedTechnique::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const HostScope scope(device_.internals());
-    checkTextures(inputs.view);
+    checkInputs(inputs.view, inputs.light, out, device_.internals());
+    checkCasters(inputs.casters, device_.internals());
+    warnOfPolygonOffset(scope.hostsPolygonOffset(), inputs.view);
+    if (device_.internals().diagnoses) diagnoseOnce(inputs);
     const ReadableTexture depth(inputs.view.depthTexture), normals(inputs.view.normalTexture),
         receivers(inputs.view.receiverTexture);
     VisibilityBuffer& written = plain(out);
@@ -25,10 +37,28 @@ void HostedTechnique::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
     device_.internals().shaders.order()->makeAllVisible();
 }
 
+void HostedTechnique::diagnoseOnce(const ShadowInputs& inputs) {
+    if (std::exchange(isDiagnosed_, true)) return;
+    for (const std::string& finding :
+         diagnoseInScope(device_.internals(), inputs.view, inputs.casters).findings)
+        device_.internals().log.write(LogLevel::warning, "diagnosis: " + finding);
+}
+
+void HostedTechnique::warnOfPolygonOffset(const PolygonOffset& ofHost, const View& view) {
+    const PolygonOffset none;
+    if (ofHost == none || view.polygonOffset != none) return;
+    if (std::exchange(device_.internals().hasWarnedOfPolygonOffset, true)) return;
+    device_.internals().log.write(
+        LogLevel::warning,
+        "GL_POLYGON_OFFSET_FILL is on: if the depths were drawn with it, state it in "
+        "View::polygonOffset, or surfaces lie behind themselves and are dark");
+}
+
 VisibilityBuffer& HostedTechnique::plain(VisibilityBuffer& out) {
     if (out.internals().isPlain()) return out;
     if (!detour_ || detour_->colored() != out.colored()) {
-        detour_.emplace(device_, out.width_px(), out.height_px(), out.colored());
+        detour_ = VisibilityBuffer::Internals::make(device_.internals(), out.width_px(), out.height_px(),
+                                                    out.colored());
     }
     detour_->resize(out.width_px(), out.height_px());
     return *detour_;

@@ -3,6 +3,7 @@
 // state, the forms that its view and its texture for the answer may have, and a context that may be gone.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "penumbra/technique.h"
@@ -14,21 +15,24 @@ class HostedTechnique final : public Technique {
   public:
     HostedTechnique(Device& device, std::unique_ptr<Technique> (*make)(Device&));
 
-    void describe(ParameterVisitor& visitor) override { technique_->describe(visitor); }
+    void describe(ParameterVisitor& visitor) override;
     void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
     void inspect(InspectionVisitor& visitor) const override;
     Statistics statistics() const override;
 
   private:
+    void diagnoseOnce(const ShadowInputs& inputs);
+    void warnOfPolygonOffset(const PolygonOffset& ofHost, const View& view);
     VisibilityBuffer& plain(VisibilityBuffer& out);
     void deliver(const VisibilityBuffer& written, const VisibilityBuffer& out);
 
-    Device& device_;
+    Device device_;  ///< its own: the host may move or destroy the other
     std::unique_ptr<Technique> technique_;
     HostView view_;
     std::optional<VisibilityBuffer>
         detour_;  ///< for rectangles of the host's textures, and formats of its own
     std::optional<TextureCopy> copy_;
+    bool isDiagnosed_ = false;
 };
 
 }  // namespace penumbra

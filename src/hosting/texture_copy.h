@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 #include "src/gl/texture.h"
 
 namespace penumbra {

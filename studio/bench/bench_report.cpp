@@ -123,7 +123,7 @@ std::string machineSentence(const Machine& machine) {
 Machine thisMachine(const Workbench& workbench) {
     return {.processor = fmt::format("{}, {} cores", processorName(), std::thread::hardware_concurrency()),
             .renderer = workbench.renderer(),
-            .driver = workbench.version(),
+            .driver = workbench.openGLVersion(),
             .clock = std::string(workbench.clock().name()),
             .commit = PENUMBRA_COMMIT};
 }

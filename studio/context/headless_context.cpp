@@ -53,7 +53,7 @@ std::vector<Candidate> candidates() {
 }
 
 /// Makes a context on `display` and makes it current; on failure leaves `whyNot`.
-EGLContext makeContext(EGLDisplay display, std::string& whyNot) {
+EGLContext makeContext(EGLDisplay display, ContextProfile profile, EGLContext shared, std::string& whyNot) {
     EGLint major = 0, minor = 0;
     if (display == EGL_NO_DISPLAY || eglInitialize(display, &major, &minor) == EGL_FALSE) {
         whyNot = "EGL cannot initialise it";
@@ -68,23 +68,26 @@ EGLContext makeContext(EGLDisplay display, std::string& whyNot) {
     EGLConfig config = nullptr;
     EGLint count = 0;
     eglChooseConfig(display, anyConfig.data(), &config, 1, &count);
-    constexpr std::array<EGLint, 13> attributes = {EGL_CONTEXT_MAJOR_VERSION,
-                                                   4,
-                                                   EGL_CONTEXT_MINOR_VERSION,
-                                                   5,
-                                                   EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                                   EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                                   EGL_CONTEXT_OPENGL_DEBUG,
-                                                   EGL_TRUE,
-                                                   EGL_CONTEXT_OPENGL_ROBUST_ACCESS,
-                                                   EGL_TRUE,
-                                                   EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
-                                                   EGL_LOSE_CONTEXT_ON_RESET,
-                                                   EGL_NONE};
+    const bool isCore = profile == ContextProfile::core;
+    const std::array<EGLint, 13> attributes = {
+        EGL_CONTEXT_MAJOR_VERSION,
+        4,
+        EGL_CONTEXT_MINOR_VERSION,
+        5,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        isCore ? EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT : EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT,
+        EGL_CONTEXT_OPENGL_DEBUG,
+        EGL_TRUE,
+        EGL_CONTEXT_OPENGL_ROBUST_ACCESS,
+        EGL_TRUE,
+        EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+        EGL_LOSE_CONTEXT_ON_RESET,
+        EGL_NONE};
     const EGLContext context =
-        eglCreateContext(display, count > 0 ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+        eglCreateContext(display, count > 0 ? config : EGL_NO_CONFIG_KHR, shared, attributes.data());
     if (context == EGL_NO_CONTEXT) {
-        whyNot = "its driver has no OpenGL 4.5 core context";
+        whyNot = isCore ? "its driver has no OpenGL 4.5 core context"
+                        : "its driver has no OpenGL 4.5 compatibility context";
         return EGL_NO_CONTEXT;
     }
     if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE) {
@@ -117,7 +120,8 @@ std::vector<HeadlessDevice> listHeadlessDevices() {
     for (const Candidate& candidate : candidates()) {
         HeadlessDevice& device = devices.emplace_back();
         device.name = candidate.name;
-        const EGLContext context = makeContext(candidate.display, device.whyNot);
+        const EGLContext context =
+            makeContext(candidate.display, ContextProfile::core, EGL_NO_CONTEXT, device.whyNot);
         if (context == EGL_NO_CONTEXT) continue;
         device.usable = true;
         device.name += std::string(": ") + reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -126,14 +130,18 @@ std::vector<HeadlessDevice> listHeadlessDevices() {
     return devices;
 }
 
-HeadlessContext::HeadlessContext(std::optional<int> device) : state_(std::make_unique<State>()) {
+HeadlessContext::HeadlessContext(std::optional<int> device, ContextProfile profile,
+                                 const HeadlessContext* shared)
+    : state_(std::make_unique<State>()) {
     const std::vector<Candidate> found = candidates();
     std::string tried;
     for (int i = 0; i < int(found.size()); ++i) {
         if (device && i != *device) continue;
         const Candidate& candidate = found[std::size_t(i)];
         std::string whyNot;
-        state_->context = makeContext(candidate.display, whyNot);
+        if (shared != nullptr && shared->state_->display != candidate.display) continue;
+        state_->context = makeContext(candidate.display, profile,
+                                      shared != nullptr ? shared->state_->context : EGL_NO_CONTEXT, whyNot);
         state_->display = candidate.display;
         if (state_->context != EGL_NO_CONTEXT) return;
         tried += "\n  device " + std::to_string(i) + " (" + candidate.name + "): " + whyNot;
@@ -152,6 +160,10 @@ HeadlessContext::~HeadlessContext() = default;
 
 void HeadlessContext::makeCurrent() const {
     eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state_->context);
+}
+
+void HeadlessContext::makeNoneCurrent() const {
+    eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
 }  // namespace penumbra::studio

@@ -25,19 +25,27 @@ struct HeadlessDevice {
 /// ones, then Mesa's surfaceless platform. Empty where the machine has no EGL.
 std::vector<HeadlessDevice> listHeadlessDevices();
 
-/// An OpenGL 4.5 core debug context with robust access, current on the calling thread from construction to
+/// Hosts have either; everything of our own needs core alone.
+enum class ContextProfile { core, compatibility };
+
+/// An OpenGL 4.5 debug context with robust access, current on the calling thread from construction to
 /// destruction.
 class HeadlessContext {
   public:
     /// `device` is an index into listHeadlessDevices(); without one the first usable device is taken. Throws
-    /// NoOpenGLError, naming what was tried.
-    explicit HeadlessContext(std::optional<int> device = std::nullopt);
+    /// NoOpenGLError, naming what was tried. Objects are shared with `shared`, which lives on the same
+    /// device.
+    explicit HeadlessContext(std::optional<int> device = std::nullopt,
+                             ContextProfile profile = ContextProfile::core,
+                             const HeadlessContext* shared = nullptr);
     HeadlessContext(HeadlessContext&&) noexcept;
     HeadlessContext& operator=(HeadlessContext&&) noexcept;
     ~HeadlessContext();
 
     /// Makes this context current on the calling thread.
     void makeCurrent() const;
+    /// Leaves the calling thread without a context.
+    void makeNoneCurrent() const;
 
   private:
     struct State;

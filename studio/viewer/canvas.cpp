@@ -7,6 +7,8 @@
 #include "src/gl/pass.h"
 #include "studio/viewer/canvas_io.h"
 
+#include "src/gl/texture_target.h"
+
 namespace penumbra::studio::viewer {
 namespace {
 
@@ -85,9 +87,7 @@ void Canvas::compose(const FrameRenderer& frame, const Side& a, const Side& b, c
 
 void Canvas::inspect(const InspectedTexture& texture, int layer, bool stretched) {
     const gl::DebugGroup group("inspection");
-    GLint target = 0;
-    glGetTextureParameteriv(texture.texture, GL_TEXTURE_TARGET, &target);
-    const bool layered = target == GL_TEXTURE_2D_ARRAY;
+    const bool layered = gl::targetOf(texture.texture) == GL_TEXTURE_2D_ARRAY;
     const int width_px = parameter(texture.texture, GL_TEXTURE_WIDTH);
     const int height_px = parameter(texture.texture, GL_TEXTURE_HEIGHT);
     const bool grey = parameter(texture.texture, GL_TEXTURE_GREEN_SIZE) == 0;

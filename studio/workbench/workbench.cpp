@@ -12,8 +12,11 @@
 
 namespace penumbra::studio {
 
-Workbench::Workbench(std::optional<int> device)
-    : context_(device), device_(DeviceOptions{.log = logFromDevice}), clock_(device_), frame_(device_) {
+Workbench::Workbench(std::optional<int> device, ContextProfile profile)
+    : context_(device, profile),
+      device_(DeviceOptions{.log = logFromDevice}),
+      clock_(device_),
+      frame_(device_) {
     spdlog::info("OpenGL on {}", device_.renderer());
 }
 

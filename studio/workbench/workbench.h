@@ -40,14 +40,16 @@ struct TechniqueResult {
 class Workbench {
   public:
     /// Throws NoOpenGLError.
-    explicit Workbench(std::optional<int> device = std::nullopt);
+    explicit Workbench(std::optional<int> device = std::nullopt,
+                       ContextProfile profile = ContextProfile::core);
 
     /// Where a process has several, each call is for the one whose context is current.
     void makeCurrent() const { context_.makeCurrent(); }
+    const HeadlessContext& context() const { return context_; }
 
     Device& device() { return device_; }
     const std::string& renderer() const { return device_.renderer(); }
-    const std::string& version() const { return device_.version(); }
+    const std::string& openGLVersion() const { return device_.openGLVersion(); }
     const CostClock& clock() const { return clock_; }
     FrameRenderer& frame() { return frame_; }
     /// The scene that is open.

@@ -5,6 +5,8 @@
 #include <array>
 #include <sstream>
 
+#include "tests/support/compatibility_gl_state.h"
+
 namespace penumbra::test {
 namespace {
 
@@ -304,6 +306,7 @@ GlState captureState() {
     state["debug callback"] = {double(reinterpret_cast<std::uintptr_t>(callback))};
     captureIndexed(state);
     captureBindings(state);
+    captureCompatibilityState(state);
     return state;
 }
 
@@ -337,10 +340,12 @@ NastyHost::NastyHost() {
     glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, transformFeedback_);
     setRaster();
     for (const PixelStore& store : pixelStores) glPixelStorei(store.name, store.odd);
+    setOddCompatibilityState();
 }
 
 NastyHost::~NastyHost() {
     for (const PixelStore& store : pixelStores) glPixelStorei(store.name, store.standard);
+    resetCompatibilityTransfer();
     glUseProgram(0);
     glDeleteProgram(program_);
     glDeleteVertexArrays(1, &vertexArray_);

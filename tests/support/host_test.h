@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "src/gl/gl.h"
@@ -35,10 +36,21 @@ class Program {
     GLuint name_;
 };
 
+/// What `call` throws: kind and message. Fails where it throws nothing.
+inline std::pair<Error::Kind, std::string> errorOf(const std::function<void()>& call) {
+    try {
+        call();
+    } catch (const Error& error) {
+        return {error.kind(), error.what()};
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return {};
+}
+
 /// A context of its own for each test, so that what a host does to it hurts no other test.
 class HostTest : public ::testing::Test {
   protected:
-    HostTest() { workbench_.emplace(); }
+    HostTest() { workbench_.emplace(std::nullopt, testProfile()); }
     void TearDown() override {
         workbench_.reset();
         TechniqueTest::workbench().makeCurrent();

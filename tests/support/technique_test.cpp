@@ -2,6 +2,7 @@
 #include "tests/support/technique_test.h"
 
 #include <cmath>
+#include <cstdlib>
 
 namespace penumbra::studio {
 namespace {
@@ -23,12 +24,18 @@ class ChangedMotion final : public Scene::Motion {
 
 }  // namespace
 
+ContextProfile testProfile() {
+    const char* const asked = std::getenv("PENUMBRA_TEST_PROFILE");
+    return asked != nullptr && std::string_view(asked) == "compatibility" ? ContextProfile::compatibility
+                                                                          : ContextProfile::core;
+}
+
 void TechniqueTest::TearDown() {
     EXPECT_EQ(workbench().device().severeMessageCount(), 0) << "see the log above";
 }
 
 Workbench& TechniqueTest::workbench() {
-    static Workbench instance;
+    static Workbench instance(std::nullopt, testProfile());
     return instance;
 }
 

@@ -18,6 +18,10 @@ namespace penumbra::studio {
 /// KEY, VALUE
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
+/// Of the contexts that tests of techniques and hosts run in: PENUMBRA_TEST_PROFILE=compatibility asks for
+/// those that many hosts have.
+ContextProfile testProfile();
+
 /// Fails a test after which the driver has reported an error, undefined behaviour or anything of high
 /// severity.
 class TechniqueTest : public ::testing::Test {

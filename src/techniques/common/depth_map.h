@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 #include "src/gl/buffer.h"
 #include "src/gl/framebuffer.h"
 #include "src/gl/pass.h"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "src/techniques/common/glm_types.h"
+#include "src/device/glm_types.h"
 #include "src/techniques/common/view_constants.h"
 
 namespace penumbra {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "penumbra/light.h"
-#include "src/techniques/common/glm_types.h"
+#include "src/device/glm_types.h"
 #include "src/techniques/common/light_io.h"
 
 namespace penumbra {

@@ -1,68 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/techniques/common/view_constants.h"
 
-#include <cmath>
-#include <string>
-
-#include "src/techniques/common/glm_types.h"
-#include "src/techniques/common/visibility_internals.h"
+#include "src/device/glm_types.h"
+#include "src/device/visibility_internals.h"
 
 namespace penumbra {
-namespace {
-
-void require(bool condition, const char* message) {
-    if (!condition) throw Error(Error::Kind::badArgument, message);
-}
-
-bool isFinite(const Mat4& matrix) {
-    for (const auto& column : matrix.columns) {
-        for (const float value : column) {
-            if (!std::isfinite(value)) return false;
-        }
-    }
-    return true;
-}
-
-bool isRotation(const Mat4& matrix) {
-    const glm::dmat3 rotation(toGlm(matrix));
-    const glm::dmat3 product = glm::transpose(rotation) * rotation;
-    for (int column = 0; column < 3; ++column) {
-        for (int row = 0; row < 3; ++row) {
-            if (std::abs(product[column][row] - (row == column ? 1.0 : 0.0)) > 1e-3) return false;
-        }
-    }
-    return true;
-}
-
-bool isSize(float value) {
-    return std::isfinite(value) && value >= 0;
-}
-
-}  // namespace
-
-void checkInputs(const ShadowInputs& inputs, const VisibilityBuffer& out) {
-    const View& view = inputs.view;
-    require(view.width_px >= 1 && view.height_px >= 1, "View: width_px and height_px must be at least 1");
-    require(view.depthTexture != 0, "View: depthTexture is missing");
-    require(isFinite(view.viewFromWorld) && isFinite(view.clipFromView), "View: a matrix is not finite");
-    require(glm::determinant(toGlm(view.clipFromView)) != 0, "View: clipFromView is not invertible");
-    require(isRotation(view.viewFromWorld), "View: viewFromWorld is not a rotation and translation");
-    require(out.width_px() == view.width_px && out.height_px() == view.height_px,
-            "VisibilityBuffer: its size is not the view's");
-
-    const AreaLight& light = inputs.light;
-    require(isFinite(light.worldFromLight) && isRotation(light.worldFromLight),
-            "AreaLight: worldFromLight is not a rotation and translation");
-    require(isSize(light.width_m) && isSize(light.height_m) && isSize(light.radius_m),
-            "AreaLight: width_m, height_m and radius_m must be finite and not negative");
-    require(light.angle_rad >= 0 && light.angle_rad <= 3.1415927f,
-            "AreaLight: angle_rad must lie in [0, pi]");
-    require(light.radianceTexture == 0 || light.shape == LightShape::rect,
-            "AreaLight: only rect lights may be textured");
-    require(out.colored() == (light.radianceTexture != 0),
-            "VisibilityBuffer: must be colored for a textured light, and for no other");
-}
-
 glm::dmat4 lightFromWorld(const ShadowInputs& inputs) {
     glm::dmat4 worldFromLight = toGlm(inputs.light.worldFromLight);
     if (inputs.light.shape == LightShape::distant) {

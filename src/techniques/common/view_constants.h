@@ -10,10 +10,6 @@
 
 namespace penumbra {
 
-/// Throws Error::Kind::badArgument where sizes, matrices or the light's numbers are outside their documented
-/// ranges, or `out` does not fit the view and the light.
-void checkInputs(const ShadowInputs& inputs, const VisibilityBuffer& out);
-
 /// From world space to the light's: rotation and translation. A distant light, which has no place, gets its
 /// origin in the middle of the casters.
 glm::dmat4 lightFromWorld(const ShadowInputs& inputs);

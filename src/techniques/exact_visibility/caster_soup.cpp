@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "src/techniques/common/glm_types.h"
+#include "src/device/glm_types.h"
 #include "src/techniques/exact_visibility/exact_io.h"
 
 namespace penumbra {

@@ -10,7 +10,7 @@
 
 #include "penumbra/light_plane.h"
 #include "src/gl/pass.h"
-#include "src/techniques/common/glm_types.h"
+#include "src/device/glm_types.h"
 #include "src/techniques/common/light_constants.h"
 
 namespace penumbra {
@@ -192,7 +192,6 @@ std::vector<unsigned> ExactVisibility::sendMasks() {
 }
 
 void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
-    checkInputs(inputs, out);
     {
         const auto pass = timers_.pass("exact/upload");
         soup_.update(inputs.casters);

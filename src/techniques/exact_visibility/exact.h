@@ -13,7 +13,7 @@
 
 #include "penumbra/promise.h"
 #include "penumbra/technique.h"
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 #include "src/gl/pass_timers.h"
 #include "src/gl/program.h"
 #include "src/gl/texture.h"

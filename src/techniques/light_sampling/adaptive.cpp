@@ -115,7 +115,6 @@ void AdaptiveLightSampling::chooseSamples(const LightSurface& surface) {
 }
 
 void AdaptiveLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
-    checkInputs(inputs, out);
     const Frame frame{inputs, lightFromWorld(inputs), out};
 
     // Maps and subdivision depend on nothing but the key; they stay where all maps have a place of their own.

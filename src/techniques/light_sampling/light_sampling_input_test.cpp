@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Input at the limits, and what is kept from frame to frame.
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 #include "src/techniques/light_sampling/light_sampling_test.h"
 
 namespace penumbra::studio {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/techniques/light_sampling/light_sampling_test.h"
 
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 
 namespace penumbra::studio {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <span>
 
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 #include "src/gl/buffer.h"
 #include "src/gl/framebuffer.h"
 #include "src/gl/pass.h"

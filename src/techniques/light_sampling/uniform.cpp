@@ -35,7 +35,6 @@ void UniformLightSampling::choose(const LightSurface& surface) {
 }
 
 void UniformLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
-    checkInputs(inputs, out);
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
     const LightSurface surface(inputs.light, scene);

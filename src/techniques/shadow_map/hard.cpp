@@ -14,7 +14,6 @@ void HardShadowMap::describe(ParameterVisitor& visitor) {
 }
 
 void HardShadowMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
-    checkInputs(inputs, out);
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
     const LightCameras cameras =

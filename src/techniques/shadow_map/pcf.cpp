@@ -51,7 +51,6 @@ double Pcf::reach_px() const {
 }
 
 void Pcf::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
-    checkInputs(inputs, out);
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
     LightCameras cameras = fitLightCameras(inputs.light, scene, {.mapSize_px = mapSize_px_, .splits = true});

@@ -81,7 +81,6 @@ void Pcss::updatePatterns(const AreaLight& light) {
 }
 
 void Pcss::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
-    checkInputs(inputs, out);
     const AreaLight light = scaled(inputs.light, lightScale_);
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);

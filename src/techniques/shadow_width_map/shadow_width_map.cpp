@@ -45,7 +45,6 @@ void ShadowWidthMap::describe(ParameterVisitor& visitor) {
 }
 
 void ShadowWidthMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
-    checkInputs(inputs, out);
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
     const LightCameras cameras = fitMapCameras(inputs.light, scene, mapSize_px_);

@@ -3,7 +3,7 @@
 // V-buffer a list of the clusters that may lie between its receivers and the light.
 #pragma once
 
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 #include "src/gl/buffer.h"
 #include "src/gl/program.h"
 #include "src/techniques/soft_shadow_volumes/volume_frame.h"

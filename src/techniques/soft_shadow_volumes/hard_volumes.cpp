@@ -6,7 +6,7 @@
 namespace penumbra {
 
 HardVolumes::HardVolumes(Device& device)
-    : device_(device),
+    : device_(device.internals()),
       counter_(device),
       resolve_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/hard_volumes.comp.glsl"}),
       alphaMaskWarning_(device) {}
@@ -23,7 +23,6 @@ void HardVolumes::describe(ParameterVisitor& visitor) {
 }
 
 void HardVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
-    checkInputs(inputs, out);
     alphaMaskWarning_.check(inputs.casters);
     VolumeFrame frame(inputs, 1, VolumeFrame::Count::drawn);
     if (openMeshes_ == int(OpenMeshes::capped)) frame.capHoles(device_);

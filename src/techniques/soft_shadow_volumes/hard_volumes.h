@@ -24,7 +24,7 @@ class HardVolumes final : public Technique {
     int counting_ = 0;
     int openMeshes_ = int(OpenMeshes::signedEdges);
 
-    Device& device_;
+    Device::Internals& device_;
     VolumeCounter counter_;
     gl::Program resolve_;
     FrameBinding binding_;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "penumbra/light.h"
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 #include "src/gl/buffer.h"
 #include "src/gl/pass.h"
 #include "src/techniques/soft_shadow_volumes/volume_frame.h"

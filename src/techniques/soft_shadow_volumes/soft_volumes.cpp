@@ -123,7 +123,6 @@ void SoftVolumes::upsample(const VisibilityBuffer& out) {
 }
 
 void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
-    checkInputs(inputs, out);
     const bool isSoft = hasSize(inputs.light);
     const int size = isSoft ? chooseSize() : 0;
     const int pixelsPerTexel = 1 << size;

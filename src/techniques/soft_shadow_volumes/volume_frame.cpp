@@ -6,8 +6,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
+#include "src/device/glm_types.h"
 #include "src/geometry/capping.h"
-#include "src/techniques/common/glm_types.h"
 #include "src/techniques/common/light_camera.h"
 #include "src/techniques/common/view_constants.h"
 
@@ -153,7 +153,7 @@ VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel, Count c
     if (light.shape != LightShape::distant) constants.light.halfSize = half;
 }
 
-void VolumeFrame::capHoles(Device& device) {
+void VolumeFrame::capHoles(Device::Internals& device) {
     for (SilhouetteSource& source : sources) {
         const Mesh& capped = cappedOf(device, *source.mesh);
         mayHide = mayHide || &capped != source.mesh;

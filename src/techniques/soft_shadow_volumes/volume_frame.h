@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "penumbra/technique.h"
-#include "src/device_internals.h"
+#include "src/device/device_internals.h"
 #include "src/geometry/silhouette_extractor.h"
 #include "src/gl/buffer.h"
 #include "src/gl/pass.h"
@@ -47,7 +47,7 @@ struct VolumeFrame {
     VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel, Count count);
 
     /// Closes the holes of all casters with triangles that nobody draws.
-    void capHoles(Device& device);
+    void capHoles(Device::Internals& device);
 
     /// The light's centre.
     LightPoint center() const;

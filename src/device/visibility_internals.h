@@ -5,17 +5,21 @@
 #include <memory>
 
 #include "penumbra/technique.h"
+#include "src/device/device_internals.h"
 #include "src/gl/texture.h"
 
 namespace penumbra {
 
 struct VisibilityBuffer::Internals {
-    Device::Internals* device = nullptr;
+    std::shared_ptr<Device::Internals> device;
     gl::Texture own;   ///< or none, and
     HostTexture host;  ///< the host's
     GLenum format = 0;
     bool colored = false;
     mutable gl::WriteRecord written;
+
+    /// One with a texture of its own, as the public constructor makes it.
+    static VisibilityBuffer make(Device::Internals& device, int width_px, int height_px, bool colored);
 
     /// Techniques write pixel (x, y) to texel (x, y), as bindVisibility says: anything else needs a copy.
     bool isPlain() const {

@@ -3,8 +3,10 @@
 #include <array>
 #include <string>
 
-#include "src/device_internals.h"
-#include "src/techniques/common/visibility_internals.h"
+#include "src/device/device_internals.h"
+#include "src/device/host_scope.h"
+#include "src/device/visibility_internals.h"
+#include "src/gl/texture_target.h"
 
 namespace penumbra {
 namespace {
@@ -42,10 +44,10 @@ void requireSize(const Device::Internals& device, int width_px, int height_px) {
 
 GLenum writableFormatOf(const VisibilityBuffer::HostTexture& host, bool colored) {
     const std::string name = "texture " + std::to_string(host.texture);
-    require(glIsTexture(host.texture), name + " is no texture of the current context");
-    GLint target = 0, width_px = 0, height_px = 0, format = 0;
-    glGetTextureParameteriv(host.texture, GL_TEXTURE_TARGET, &target);
+    const GLenum target = gl::targetOf(host.texture);
+    require(target != GL_NONE, name + " is no texture of the current context");
     require(target == GL_TEXTURE_2D, name + " is no GL_TEXTURE_2D");
+    GLint width_px = 0, height_px = 0, format = 0;
     glGetTextureLevelParameteriv(host.texture, 0, GL_TEXTURE_WIDTH, &width_px);
     glGetTextureLevelParameteriv(host.texture, 0, GL_TEXTURE_HEIGHT, &height_px);
     glGetTextureLevelParameteriv(host.texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
@@ -66,23 +68,35 @@ gl::Texture makeTexture(int width_px, int height_px, GLenum format) {
 
 }  // namespace
 
-VisibilityBuffer::VisibilityBuffer(Device& device, int width_px, int height_px, bool colored)
-    : internals_(std::make_unique<Internals>()) {
-    device.internals().requireContext();
-    internals_->device = &device.internals();
-    internals_->colored = colored;
-    internals_->format = GLenum(colored ? GL_RGBA16F : GL_R32F);
-    resize(width_px, height_px);
+VisibilityBuffer::VisibilityBuffer() : internals_(std::make_unique<Internals>()) {}
+
+VisibilityBuffer VisibilityBuffer::Internals::make(Device::Internals& device, int width_px, int height_px,
+                                                   bool colored) {
+    VisibilityBuffer made;
+    made.internals_->device = device.shared_from_this();
+    made.internals_->colored = colored;
+    made.internals_->format = GLenum(colored ? GL_RGBA16F : GL_R32F);
+    made.resize(width_px, height_px);
+    return made;
 }
 
+VisibilityBuffer::VisibilityBuffer(Device& device, int width_px, int height_px, bool colored)
+    : VisibilityBuffer(Internals::make(device.internals(), width_px, height_px, colored)) {}
+
 VisibilityBuffer::VisibilityBuffer(Device& device, const HostTexture& host, bool colored)
-    : internals_(std::make_unique<Internals>()) {
-    device.internals().requireContext();
+    : VisibilityBuffer() {
     requireSize(device.internals(), host.width_px, host.height_px);
-    internals_->device = &device.internals();
+    const HostScope scope(device.internals());
+    internals_->device = device.internals().shared_from_this();
     internals_->host = host;
     internals_->colored = colored;
     internals_->format = writableFormatOf(host, colored);
+}
+
+VisibilityBuffer::Internals& VisibilityBuffer::internals() const {
+    if (internals_) return *internals_;
+    throw Error(Error::Kind::badArgument,
+                "VisibilityBuffer: it was moved from: use the buffer that it was moved to");
 }
 
 VisibilityBuffer::VisibilityBuffer(VisibilityBuffer&&) noexcept = default;
@@ -90,26 +104,26 @@ VisibilityBuffer& VisibilityBuffer::operator=(VisibilityBuffer&&) noexcept = def
 VisibilityBuffer::~VisibilityBuffer() = default;
 
 void VisibilityBuffer::resize(int width_px, int height_px) {
-    internals_->device->requireContext();
-    requireSize(*internals_->device, width_px, height_px);
-    require(internals_->host.texture == 0, "one that writes into the host's texture cannot be resized");
+    internals().device->requireContext();
+    requireSize(*internals().device, width_px, height_px);
+    require(internals().host.texture == 0, "one that writes into the host's texture cannot be resized");
     if (texture() != 0 && width_px == this->width_px() && height_px == this->height_px()) return;
-    const gl::LedgerScope scope(internals_->device->ledger);
-    internals_->own = {};  // freed first, so that the two need not fit together
-    internals_->own = makeTexture(width_px, height_px, internals_->format);
+    const gl::LedgerScope scope(internals().device->ledger);
+    internals().own = {};  // freed first, so that the two need not fit together
+    internals().own = makeTexture(width_px, height_px, internals().format);
 }
 
 int VisibilityBuffer::width_px() const {
-    return internals_->host.texture == 0 ? internals_->own.width_px() : internals_->host.width_px;
+    return internals().host.texture == 0 ? internals().own.width_px() : internals().host.width_px;
 }
 int VisibilityBuffer::height_px() const {
-    return internals_->host.texture == 0 ? internals_->own.height_px() : internals_->host.height_px;
+    return internals().host.texture == 0 ? internals().own.height_px() : internals().host.height_px;
 }
 bool VisibilityBuffer::colored() const {
-    return internals_->colored;
+    return internals().colored;
 }
 std::uint32_t VisibilityBuffer::texture() const {
-    return internals_->host.texture == 0 ? internals_->own.name() : internals_->host.texture;
+    return internals().host.texture == 0 ? internals().own.name() : internals().host.texture;
 }
 
 }  // namespace penumbra

@@ -14,17 +14,30 @@
 
 namespace penumbra {
 
-struct Device::Internals {
+/// What devices have in common whose contexts share objects.
+struct ShareGroup {
+    std::uint64_t meshesMade = 0;
+};
+
+/// Shared by the device and by all that was made on it, so that none of it outlives what it needs.
+struct Device::Internals : std::enable_shared_from_this<Device::Internals> {
     explicit Internals(DeviceOptions options);
 
-    /// Throws Error::Kind::lostContext where the device was given up.
+    /// Throws Error::Kind::lostContext where the device was given up or is gone, and noOpenGL where another
+    /// context than its own is current, or none.
     void requireContext() const;
+
+    /// Another Device, for what must not depend on where the host's is. Using nothing up, and owning nothing.
+    static Device handle(Internals& device) { return Device(device.shared_from_this()); }
+
+    /// The host's Device is destroyed.
+    void outliveDevice();
 
     std::shared_ptr<gl::Ledger> ledger = std::make_shared<gl::Ledger>();
     gl::DebugLog log;
     gl::ShaderLibrary shaders;
     std::string renderer;
-    std::string version;
+    std::string openGLVersion;
     int maxTextureSize_px = 0;
     std::size_t largestStorageBlock_bytes = 0;
     int maxLayers = 0;
@@ -32,8 +45,12 @@ struct Device::Internals {
     /// The vertex shader may write gl_Layer (ARB_shader_viewport_layer_array), so that one instanced draw
     /// serves many layers; else each layer is drawn by itself.
     bool layerFromVertexShader = false;
+    bool isCompatibilityContext = false;
     bool keepHostState = true;
-    std::uint64_t meshesMade = 0;
+    bool diagnoses = false;
+    bool hasWarnedOfPolygonOffset = false;
+    bool isDeviceGone = false;
+    std::shared_ptr<ShareGroup> shareGroup;
     std::optional<gl::Program> gatherVertices;  ///< see geometry/host_buffers.cpp; made when first needed
 };
 

@@ -1,27 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/hosting/host_state.h"
+#include "src/device/host_state.h"
 
 #include <algorithm>
 
 namespace penumbra {
 namespace {
-
-struct TextureTarget {
-    GLenum target, binding;
-};
-constexpr std::array<TextureTarget, 11> targets = {{
-    {GL_TEXTURE_1D, GL_TEXTURE_BINDING_1D},
-    {GL_TEXTURE_1D_ARRAY, GL_TEXTURE_BINDING_1D_ARRAY},
-    {GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D},
-    {GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_ARRAY},
-    {GL_TEXTURE_2D_MULTISAMPLE, GL_TEXTURE_BINDING_2D_MULTISAMPLE},
-    {GL_TEXTURE_2D_MULTISAMPLE_ARRAY, GL_TEXTURE_BINDING_2D_MULTISAMPLE_ARRAY},
-    {GL_TEXTURE_3D, GL_TEXTURE_BINDING_3D},
-    {GL_TEXTURE_BUFFER, GL_TEXTURE_BINDING_BUFFER},
-    {GL_TEXTURE_CUBE_MAP, GL_TEXTURE_BINDING_CUBE_MAP},
-    {GL_TEXTURE_CUBE_MAP_ARRAY, GL_TEXTURE_BINDING_CUBE_MAP_ARRAY},
-    {GL_TEXTURE_RECTANGLE, GL_TEXTURE_BINDING_RECTANGLE},
-}};
 
 struct PixelStore {
     GLenum name;
@@ -55,8 +38,6 @@ constexpr std::array<std::array<GLenum, 7>, 2> stencilNames = {{
      GL_STENCIL_BACK_PASS_DEPTH_FAIL, GL_STENCIL_BACK_PASS_DEPTH_PASS, GL_STENCIL_BACK_WRITEMASK},
 }};
 
-constexpr GLenum alphaTest = 0x0BC0;  // GL_ALPHA_TEST: compatibility contexts alone have it
-
 GLint integer(GLenum name) {
     GLint value = 0;
     glGetIntegerv(name, &value);
@@ -77,17 +58,13 @@ void enable(GLenum capability, GLuint index, bool on) {
     on ? glEnablei(capability, index) : glDisablei(capability, index);
 }
 
-bool hasAlphaTest() {
-    return (integer(GL_CONTEXT_PROFILE_MASK) & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0;
-}
-
 }  // namespace
 
 void setKnownState() {
     gl::beginPass(0, {});
     glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
     glPointSize(1);
-    if (hasAlphaTest()) glDisable(alphaTest);
+    setKnownCompatibilityState();
     for (const PixelStore& store : pixelStores) glPixelStorei(store.name, store.standard);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
@@ -144,8 +121,6 @@ void HostState::saveRaster() {
     depthTest_ = glIsEnabled(GL_DEPTH_TEST);
     depthClamp_ = glIsEnabled(GL_DEPTH_CLAMP);
     cull_ = glIsEnabled(GL_CULL_FACE);
-    isCompatibilityProfile_ = hasAlphaTest();
-    if (isCompatibilityProfile_) alphaTest_ = glIsEnabled(alphaTest);
     cullFace_ = integer(GL_CULL_FACE_MODE);
     frontFace_ = integer(GL_FRONT_FACE);
     depthFunction_ = integer(GL_DEPTH_FUNC);
@@ -186,14 +161,13 @@ void HostState::restoreRaster() const {
     enable(GL_DEPTH_TEST, depthTest_);
     enable(GL_DEPTH_CLAMP, depthClamp_);
     enable(GL_CULL_FACE, cull_);
-    if (isCompatibilityProfile_) enable(alphaTest, alphaTest_);
     glCullFace(GLenum(cullFace_));
     glFrontFace(GLenum(frontFace_));
     glDepthFunc(GLenum(depthFunction_));
     glClipControl(GLenum(clipOrigin_), GLenum(clipDepth_));
     glProvokingVertex(GLenum(provokingVertex_));
     glPointSize(pointSize_);
-    if (isCompatibilityProfile_) {
+    if (isCompatibilityContext()) {
         glPolygonMode(GL_FRONT, GLenum(polygonMode_[0]));
         glPolygonMode(GL_BACK, GLenum(polygonMode_[1]));
     } else {
@@ -225,12 +199,11 @@ void HostState::restoreRaster() const {
 }
 
 void HostState::saveUnits() {
-    static_assert(textureTargets == targets.size());
     activeTexture_ = integer(GL_ACTIVE_TEXTURE);
     for (GLuint unit = 0; unit < textureUnits; ++unit) {
         glActiveTexture(GL_TEXTURE0 + unit);
-        for (std::size_t i = 0; i < targets.size(); ++i) {
-            textureUnits_[unit].textures[i] = integer(targets[i].binding);
+        for (std::size_t i = 0; i < gl::textureTargets.size(); ++i) {
+            textureUnits_[unit].textures[i] = integer(gl::textureTargets[i].binding);
         }
         textureUnits_[unit].sampler = integer(GL_SAMPLER_BINDING);
     }

@@ -5,7 +5,9 @@
 
 #include <array>
 
+#include "src/device/compatibility_state.h"
 #include "src/gl/raster_state.h"
+#include "src/gl/texture_target.h"
 
 namespace penumbra {
 
@@ -30,7 +32,6 @@ class HostState {
   private:
     static constexpr std::size_t mostViewports = 16;
     static constexpr std::size_t mostDrawBuffers = 8;
-    static constexpr std::size_t textureTargets = 11;
     static constexpr std::size_t pixelStores = 16;
 
     struct Viewport {
@@ -44,7 +45,7 @@ class HostState {
         GLint equationRgb, equationAlpha, sourceRgb, sourceAlpha, destinationRgb, destinationAlpha;
     };
     struct TextureUnit {
-        std::array<GLint, textureTargets> textures;
+        std::array<GLint, gl::textureTargets.size()> textures;
         GLint sampler;
     };
     struct ImageUnit {
@@ -62,12 +63,14 @@ class HostState {
     void restoreRaster() const;
     void restoreUnits() const;
 
+    CompatibilityState compatibility_;
+
     GLint program_, vertexArray_, drawFramebuffer_;
     GLint drawIndirect_, dispatchIndirect_, pixelPack_, pixelUnpack_, query_, storage_, uniform_;
     std::array<GLint, pixelStores> pixelStore_;
 
     std::array<bool, gl::unusedCapabilities.size()> unused_;
-    bool depthTest_, depthClamp_, cull_, alphaTest_ = false;
+    bool depthTest_, depthClamp_, cull_;
     GLint cullFace_, frontFace_, depthFunction_, clipOrigin_, clipDepth_, provokingVertex_;
     std::array<GLint, 2> polygonMode_;  // compatibility contexts tell front and back apart
     GLfloat pointSize_;
@@ -76,7 +79,6 @@ class HostState {
     std::size_t viewportCount_, drawBufferCount_;
     std::array<Viewport, mostViewports> viewports_;
     std::array<DrawBuffer, mostDrawBuffers> drawBuffers_;
-    bool isCompatibilityProfile_;
 
     GLint activeTexture_;
     std::array<TextureUnit, textureUnits> textureUnits_;

@@ -3,8 +3,9 @@
 
 #include <optional>
 
-#include "src/device_internals.h"
-#include "src/hosting/host_state.h"
+#include "penumbra/view.h"
+#include "src/device/device_internals.h"
+#include "src/device/host_state.h"
 
 namespace penumbra {
 
@@ -12,12 +13,16 @@ namespace penumbra {
 /// destroyed, back. Objects made meanwhile belong to the device.
 class HostScope {
   public:
-    /// Throws Error::Kind::lostContext, or badArgument where the host records transform feedback, which
-    /// forbids other programs.
+    /// Throws as Device::Internals::requireContext does, and badArgument where the host records transform
+    /// feedback, which forbids other programs, or a display list, or is in select or feedback mode.
     explicit HostScope(const Device::Internals& device);
+
+    /// What the host has set, and has on.
+    PolygonOffset hostsPolygonOffset() const { return polygonOffset_; }
 
   private:
     gl::LedgerScope ledger_;
+    PolygonOffset polygonOffset_;
     std::optional<HostState> state_;
 };
 

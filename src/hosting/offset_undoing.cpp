@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/hosting/offset_undoing.h"
+
+#include <cmath>
+
+#include "src/gl/pass.h"
+#include "src/hosting/offset_undoing_io.h"
+
+namespace penumbra {
+namespace {
+
+/// Of a depth of fixed bits, the least difference; 0 of floats, where it follows from the depth.
+double leastDifference(GLuint texture) {
+    GLint type = GL_NONE, bits = 0;
+    glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH_TYPE, &type);
+    glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH_SIZE, &bits);
+    return type == GL_UNSIGNED_NORMALIZED ? std::exp2(-bits) : 0;
+}
+
+}  // namespace
+
+OffsetUndoing::OffsetUndoing(Device::Internals& device)
+    : program_(device.shaders, {"src/hosting/offset_undoing.comp.glsl"}) {}
+
+GLuint OffsetUndoing::run(GLuint depthTexture, const View& view) {
+    undone_.fit({.width_px = view.width_px,
+                 .height_px = view.height_px,
+                 .format = gl::Format::r32f,
+                 .label = "depth without polygon offset"});
+    gl::Pass(program_)
+        .constants(OffsetUndoingConstants{
+            .size_px = {view.width_px, view.height_px},
+            .factor = view.polygonOffset.factor,
+            .units = view.polygonOffset.units,
+            // What the host drew into decides, and not a copy of it.
+            .leastDifference = float(leastDifference(view.depthTexture)),
+            .background = view.depth.reversed ? 0.0f : 1.0f,
+        })
+        .bind("depths", gl::TextureRef{.name = depthTexture})
+        .bind("undone", undone_)
+        .dispatchPixels(view.width_px, view.height_px);
+    return undone_.name();
+}
+
+}  // namespace penumbra
