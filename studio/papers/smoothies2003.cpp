@@ -197,6 +197,9 @@ Paper smoothies2003() {
                                         smoothies("smoothies, close", zoomed), truth(zoomed)}});
     paper.figures.push_back(gallery());
     paper.tables.push_back(performance());
+    paper.leftOut = {{"Figures 2, 3 and 5", "Diagrams."},
+                     {"Figure 11", "The shaders' text and its numbers of instructions on one device."},
+                     {"Section 6.1", "Penumbra maps are another method, which is not here."}};
     return paper;
 }
 
