@@ -7,6 +7,7 @@
 
 #include "src/device/host_scope.h"
 #include "src/device/input_checks.h"
+#include "src/device/visibility_internals.h"
 #include "src/gl/framebuffer.h"
 #include "src/gl/pass.h"
 #include "src/hosting/darkening_io.h"
