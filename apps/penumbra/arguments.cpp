@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "penumbra/version.h"
 #include "studio/errors.h"
 #include "studio/scene/lights/nearest_name.h"
 #include "studio/scene/look_at.h"
@@ -236,7 +237,7 @@ CLI::Validator finiteWithin(double low, double high, const std::string& unit) {
 }
 
 Metadata pictureMetadata(const std::string& commandLine) {
-    return {{"Software", "penumbra " PENUMBRA_VERSION}, {"penumbra:command", commandLine}};
+    return {{"Software", "penumbra " + std::string(version())}, {"penumbra:command", commandLine}};
 }
 
 void requireWritableFolder(const std::filesystem::path& folder, bool create) {

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "apps/penumbra/arguments.h"
+#include "penumbra/version.h"
 #include "apps/penumbra/asked_for.h"
 #include "apps/penumbra/commands.h"
 #include "studio/bench/bench_report.h"
@@ -153,7 +154,7 @@ nlohmann::ordered_json provenanceOf(const Machine& machine, const std::string& c
     const std::time_t now = std::time(nullptr);
     std::tm utc{};
     gmtime_r(&now, &utc);
-    return {{"version", PENUMBRA_VERSION},
+    return {{"version", version()},
             {"commit", machine.commit},
             {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", utc)},
             {"command", commandLine},

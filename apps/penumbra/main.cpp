@@ -18,6 +18,7 @@
 #include <new>
 #include <span>
 
+#include "penumbra/version.h"
 #include "apps/penumbra/commands.h"
 #include "penumbra/device.h"
 #include "studio/context/headless_context.h"
@@ -115,7 +116,7 @@ int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN);
     studio::removeUnfinishedFilesOnSignals();
     CLI::App app("Soft shadows of lights that have a size, in real time, judged by ray tracing");
-    app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION);
+    app.set_version_flag("--version", "penumbra " + std::string(penumbra::version()));
     app.require_subcommand(1);
     app.fallthrough();
     app.add_flag_callback(
