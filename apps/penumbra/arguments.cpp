@@ -30,8 +30,8 @@ std::optional<int> parseInt(std::string_view text) {
     return value;
 }
 
-glm::vec3 parsePoint(std::string_view flag, const std::string& text) {
-    glm::vec3 point(0);
+glm::dvec3 parsePoint(std::string_view flag, const std::string& text) {
+    glm::dvec3 point(0);
     const char* at = text.data();
     const char* const end = at + text.size();
     bool good = true;
@@ -46,22 +46,42 @@ glm::vec3 parsePoint(std::string_view flag, const std::string& text) {
     return point;
 }
 
+std::vector<std::string> unitNames() {
+    std::vector<std::string> names;
+    for (const auto& [name, unit_m] : lengthUnits_m()) names.emplace_back(name);
+    return names;
+}
+
 void addFileFlags(CLI::App& command, SceneArguments& arguments) {
     command.add_option("--lights", arguments.lightsFile,
                        "lights from this file instead of SCENE.lights.json");
     arguments.sun.addTo(command);
     command.add_option("--scene", arguments.sceneIndex, "which scene of the file, by index");
-    command.add_option("--animation", arguments.animation, "which animation plays, by index; -1: none")
+    command
+        .add_option("--animation", arguments.animations,
+                    "which animations play, by index (0,2; -1: none); else all that move different things")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.add_option("--unit", arguments.unit, "of the file's coordinates, which glTF counts in metres")
+        ->check(CLI::IsMember(unitNames()))
+        ->capture_default_str();
+    command.add_option("--up", arguments.up, "which axis of the file points up; in glTF Y does")
+        ->check(CLI::IsMember({"y", "z"}))
+        ->capture_default_str();
+    command
+        .add_option("--glass", arguments.glass, "clear: glass lets light through; blocks: it casts shadows")
+        ->check(CLI::IsMember({"clear", "blocks"}))
         ->capture_default_str();
 }
 
 void addViewFlags(CLI::App& command, SceneArguments& arguments) {
     command.add_option("--size", arguments.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
     command.add_option("--camera", arguments.camera, "a camera of the scene, by name or index");
-    CLI::Option* from = command
-                            .add_option("--look-from", arguments.lookFrom,
-                                        "X,Y,Z in metres: a camera of your own (--look-from=-1,2,3)")
-                            ->excludes("--camera");
+    CLI::Option* from =
+        command
+            .add_option("--look-from", arguments.lookFrom,
+                        "X,Y,Z in the file's coordinates: a camera of your own (--look-from=-1,2,3)")
+            ->excludes("--camera");
     CLI::Option* at =
         command.add_option("--look-at", arguments.lookAt, "X,Y,Z: what --look-from looks at")->needs(from);
     from->needs(at);
@@ -117,7 +137,16 @@ void SceneArguments::addFlagsTo(CLI::App& command) {
 }
 
 OpenOptions SceneArguments::openOptions() const {
-    OpenOptions options{.sun = sun.option(), .animation = animation, .scene = sceneIndex};
+    const auto unit_m = std::ranges::find(lengthUnits_m(), unit, &std::pair<std::string_view, double>::first);
+    OpenOptions options{.sun = sun.option(),
+                        .scene = sceneIndex,
+                        .glass = glass == "clear" ? Glass::clear : Glass::blocks,
+                        .unit_m = unit_m->second,
+                        .up = up == "y" ? UpAxis::y : UpAxis::z};
+    if (animations == std::vector{-1})
+        options.animations.emplace();
+    else if (!animations.empty())
+        options.animations = animations;
     if (lightsFile) options.lightsFile = *lightsFile;
     return options;
 }
@@ -128,10 +157,13 @@ Scene SceneArguments::open() const {
     return opened;
 }
 
-Camera SceneArguments::cameraIn(const SceneMoment& moment) const {
+Camera SceneArguments::cameraIn(const Scene& opened, const SceneMoment& moment) const {
     if (!lookFrom) return findCamera(moment, camera);
-    const LookAt look{.eye = parsePoint("--look-from", *lookFrom),
-                      .target = parsePoint("--look-at", *lookAt),
+    const auto inWorld = [&](const char* flag, const std::string& text) {
+        return glm::vec3(opened.worldFromFile * glm::dvec4(parsePoint(flag, text), 1));
+    };
+    const LookAt look{.eye = inWorld("--look-from", *lookFrom),
+                      .target = inWorld("--look-at", *lookAt),
                       .fov_deg = fov_deg,
                       .height_m = orthoHeight_m};
     if (look.eye == look.target) throw UsageError("--look-from and --look-at are the same place");
@@ -154,7 +186,7 @@ OpenedScene::OpenedScene(const SceneArguments& arguments)
     : size(arguments.pictureSize()),
       scene(arguments.open()),
       moment(scene.at(arguments.time_s)),
-      camera(arguments.cameraIn(moment)),
+      camera(arguments.cameraIn(scene, moment)),
       workbench(arguments.device) {
     workbench.requireSize(size);
     workbench.open(scene);

@@ -36,7 +36,8 @@ struct SceneArguments {
     float fov_deg = 40;
     std::optional<float> orthoHeight_m;
     std::optional<int> sceneIndex;
-    int animation = 0;
+    std::string glass = "clear", unit = "m", up = "y";
+    std::vector<int> animations;  ///< empty: not asked for; {-1}: none
     double time_s = 0;
     std::string size = "960x540";
     std::optional<int> device;
@@ -53,7 +54,7 @@ struct SceneArguments {
     Scene open() const;
     /// The camera that --camera names or --look-from places; the scene's first without either. Throws
     /// UsageError.
-    Camera cameraIn(const SceneMoment& moment) const;
+    Camera cameraIn(const Scene& opened, const SceneMoment& moment) const;
     /// Throws UsageError unless --size is WIDTHxHEIGHT.
     PictureSize pictureSize() const;
 };

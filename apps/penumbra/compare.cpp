@@ -141,7 +141,10 @@ Comparison compareScene(const SceneArguments& scene, const std::vector<Contender
 
 /// Throws now what would end the work when it is this scene's turn.
 void requireScenes(const std::vector<std::string>& scenes, const SceneArguments& view) {
-    for (const std::string& name : scenes) view.cameraIn(openScene(name, view.openOptions()).at(view.time_s));
+    for (const std::string& name : scenes) {
+        const Scene scene = openScene(name, view.openOptions());
+        view.cameraIn(scene, scene.at(view.time_s));
+    }
 }
 
 /// A folder for each of several scenes: its name, or its file's without the extension.

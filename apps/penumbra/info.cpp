@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <bit>
+
 #include "apps/penumbra/arguments.h"
 #include "apps/penumbra/commands.h"
+#include "apps/penumbra/info_nodes.h"
 #include "apps/penumbra/info_profile.h"
 #include "apps/penumbra/info_sun.h"
 #include "studio/errors.h"
 #include "studio/scene/profiles/profile_file.h"
+#include "studio/scene/solid.h"
 #include "studio/scene/topology.h"
 
 namespace penumbra::studio {
@@ -37,21 +41,31 @@ std::string describeEmission(const Emission& emission) {
     return fmt::format("({:g}, {:g}, {:g}) {}", emission.value.r, emission.value.g, emission.value.b, unit);
 }
 
-std::string describePlace(const AreaLight& shape) {
-    const auto& columns = shape.worldFromLight.columns;
-    const std::string direction =
-        fmt::format("towards ({:.3g}, {:.3g}, {:.3g})", -columns[2][0], -columns[2][1], -columns[2][2]);
+/// In the file's coordinates.
+std::string describePlace(const AreaLight& shape, const glm::dmat4& fileFromWorld) {
+    const glm::dmat4 fileFromLight =
+        fileFromWorld * glm::dmat4(std::bit_cast<glm::mat4>(shape.worldFromLight));
+    const glm::dvec3 ahead = glm::normalize(-glm::dvec3(fileFromLight[2])), at(fileFromLight[3]);
+    const std::string direction = fmt::format("towards ({:.3g}, {:.3g}, {:.3g})", ahead.x, ahead.y, ahead.z);
     if (shape.shape == LightShape::distant) return direction;
+    // Far from the origin places have more digits.
+    const int digits = fileFromWorld == glm::dmat4(1) ? 3 : 9;
     const std::string place =
-        fmt::format("at ({:.3g}, {:.3g}, {:.3g})", columns[3][0], columns[3][1], columns[3][2]);
+        fmt::format("at ({:.{}g}, {:.{}g}, {:.{}g})", at.x, digits, at.y, digits, at.z, digits);
     return shape.shape == LightShape::sphere ? place : place + " " + direction;
 }
 
-/// Sums over meshes, each welded by itself.
-Topology sum(const std::vector<Mesh>& meshes) {
+/// Sums over solids, each by itself.
+Topology sum(const Scene& scene) {
     Topology total;
-    for (const Mesh& mesh : meshes) {
-        const Topology t = analyzeTopology(mesh.positions, mesh.indices);
+    for (std::size_t first = 0; first < scene.meshes.size();) {
+        std::vector<int> surfaces = {int(first)};
+        for (++first; first < scene.meshes.size() && scene.meshes[first].solid >= 0 &&
+                      scene.meshes[first].solid == scene.meshes[first - 1].solid;
+             ++first)
+            surfaces.push_back(int(first));
+        const Solid solid = joinMeshes(scene, surfaces);
+        const Topology t = analyzeTopology(solid.positions, solid.indices);
         total.triangles += t.triangles;
         total.vertices += t.vertices;
         total.boundaryEdges += t.boundaryEdges;
@@ -65,11 +79,12 @@ Topology sum(const std::vector<Mesh>& meshes) {
 void printInfo(const SceneArguments& arguments) {
     const Scene scene = openScene(arguments.scene, arguments.openOptions());
     const SceneMoment moment = scene.at(0);
+    const glm::dmat4 fileFromWorld = glm::inverse(scene.worldFromFile);
     std::size_t drawnTriangles = 0;
     for (const Instance& instance : moment.instances) {
         drawnTriangles += scene.meshes[std::size_t(instance.mesh)].indices.size() / 3;
     }
-    const Topology topology = sum(scene.meshes);
+    const Topology topology = sum(scene);
     fmt::print("scene       {}\n", scene.name.empty() ? arguments.scene : scene.name);
     fmt::print("triangles   {} drawn by {} instances; {} stored in {} meshes\n", drawnTriangles,
                moment.instances.size(), topology.triangles, scene.meshes.size());
@@ -80,6 +95,9 @@ void printInfo(const SceneArguments& arguments) {
         const glm::vec3 &low = moment.bounds.min, &high = moment.bounds.max;
         fmt::print("bounds      ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m\n", low.x, low.y, low.z, high.x,
                    high.y, high.z);
+        if (const glm::dvec3 origin = glm::dvec3(fileFromWorld[3]); origin != glm::dvec3(0))
+            fmt::print("origin      these are relative to ({:.9g}, {:.9g}, {:.9g}) of the file\n", origin.x,
+                       origin.y, origin.z);
     }
     fmt::print(
         "surfaces    {}: {} boundary edges, {} non-manifold edges, {} with disagreeing sides, {} degenerate "
@@ -89,7 +107,7 @@ void printInfo(const SceneArguments& arguments) {
     fmt::print("materials   {} ({} textures)\n", scene.materials.size(), scene.textures.size());
     for (const Light& light : moment.lights) {
         fmt::print("light       {}: {} {}, {}{}{}\n", light.name, describeShape(light.shape),
-                   describePlace(light.shape), describeEmission(light.emission),
+                   describePlace(light.shape, fileFromWorld), describeEmission(light.emission),
                    light.profile ? fmt::format(" x {}", light.profile->profile->fileName) : std::string(),
                    light.castsShadow ? "" : ", casts no shadow");
     }
@@ -100,12 +118,9 @@ void printInfo(const SceneArguments& arguments) {
     for (const std::string& warning : scene.warnings) fmt::print("warning     {}\n", warning);
 }
 
-}  // namespace
-
-namespace {
-
 struct InfoArguments {
     SceneArguments scene;
+    std::optional<std::string> nodes;  ///< the pattern that their names match; empty: all
     std::vector<std::string> candela;
     bool json = false;
 };
@@ -116,13 +131,18 @@ void info(const InfoArguments& arguments) {
         if (!sun) throw UsageError("name a scene, a luminaire's file or a place and time (--sun)");
         return printSun(*sun, arguments.json);
     }
-    if (isProfileName(arguments.scene.scene))
+    if (isProfileName(arguments.scene.scene)) {
+        if (arguments.nodes)
+            throw UsageError(fmt::format("--nodes is for scenes, not for '{}'", arguments.scene.scene));
         return printProfile(arguments.scene.scene, arguments.candela, arguments.json);
-    if (arguments.json || !arguments.candela.empty())
+    }
+    if (!arguments.candela.empty() || (arguments.json && !arguments.nodes))
         throw UsageError(
-            fmt::format("--json and --candela are for luminaires (.ies, .ldt) and the sun, not for '{}'",
+            fmt::format("--json and --candela are for luminaires (.ies, .ldt), the sun and --nodes, not for '{}'",
                         arguments.scene.scene));
-    printInfo(arguments.scene);
+    if (!arguments.nodes) return printInfo(arguments.scene);
+    const Scene scene = openScene(arguments.scene.scene, arguments.scene.openOptions());
+    printNodes(scene, scene.at(0), arguments.nodes->empty() ? "*" : *arguments.nodes, arguments.json);
 }
 
 }  // namespace
@@ -133,12 +153,20 @@ void addInfo(CLI::App& app) {
                                            "warnings), a luminaire's file, or where the sun stands");
     auto arguments = std::make_shared<InfoArguments>();
     arguments->scene.addSceneTo(*command, false);
+    CLI::Option* nodes =
+        command
+            ->add_option("--nodes", arguments->nodes,
+                         "bounds, materials and triangles of each node whose name matches: --nodes=Window*")
+            ->expected(0, 1);
     command
         ->add_option("--candela", arguments->candela,
                      "GAMMA,C in degrees: what a luminaire (.ies, .ldt) sends there; may be repeated")
         ->take_all();
-    command->add_flag("--json", arguments->json, "of a luminaire or the sun, as JSON");
-    command->callback([arguments] { info(*arguments); });
+    command->add_flag("--json", arguments->json, "of a luminaire, the sun or nodes, as JSON");
+    command->callback([arguments, nodes] {
+        if (nodes->count() > 0 && !arguments->nodes) arguments->nodes.emplace();
+        info(*arguments);
+    });
 }
 
 }  // namespace penumbra::studio

@@ -258,7 +258,7 @@ class RenderCommand {
         const SceneMoment moment = scene.at(time_s);
         const TechniqueResult result = workbench.run(
             arguments_.technique, [&](const Light& light) -> Technique& { return techniques.of(light); },
-            moment, arguments_.scene.cameraIn(moment), size);
+            moment, arguments_.scene.cameraIn(scene, moment), size);
         if (!outputs.picture.empty()) writePicture(outputs.picture, result, metadata_);
         if (!outputs.visibility.empty()) writeVisibility(outputs.visibility, result, metadata_);
 

@@ -36,7 +36,7 @@ class Framebuffer {
 
   private:
     Handle<deleteFramebuffer> handle_;
-    std::array<WriteRecord*, 5> records_{};  ///< of its textures
+    std::array<WriteRecord*, 6> records_{};  ///< of its textures
 };
 
 }  // namespace penumbra::gl

@@ -22,8 +22,9 @@ void setCull(Cull cull) {
 void setBlend(Blend blend) {
     enable(GL_BLEND, blend != Blend::none);
     if (blend == Blend::none) return;
-    glBlendEquation(GLenum(blend));
-    glBlendFunc(GL_ONE, GL_ONE);
+    const bool multiplies = blend == Blend::product;
+    glBlendEquation(multiplies ? GL_FUNC_ADD : GLenum(blend));
+    glBlendFunc(multiplies ? GL_ZERO : GL_ONE, multiplies ? GL_SRC_COLOR : GL_ONE);
 }
 
 void setStencil(const std::optional<StencilState>& stencil) {

@@ -42,7 +42,13 @@ enum class Compare : GLenum {
 };
 enum class Cull : GLenum { none = GL_NONE, front = GL_FRONT, back = GL_BACK };
 /// Of what is drawn and what is there.
-enum class Blend : GLenum { none = GL_NONE, sum = GL_FUNC_ADD, smallest = GL_MIN, largest = GL_MAX };
+enum class Blend : GLenum {
+    none = GL_NONE,
+    sum = GL_FUNC_ADD,
+    smallest = GL_MIN,
+    largest = GL_MAX,
+    product = GL_SRC_COLOR
+};
 enum class StencilOperation : GLenum {
     keep = GL_KEEP,
     zero = GL_ZERO,

@@ -67,6 +67,8 @@ class Texture {
 
     /// All texels of level 0 become 0.
     void clear();
+    /// Level 0, to a texture of the same size and format.
+    void copyTo(Texture& target) const;
     /// One layer's texels of level 0, row by row, tightly packed, as `format` stores them.
     void write(std::span<const std::byte> texels, int layer = 0);
     /// The same, the other way. Waits for the device: not for use in a frame.

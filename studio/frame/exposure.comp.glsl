@@ -4,20 +4,15 @@
 // that the sums are always taken in the same order.
 layout(local_size_x = 256) in;
 
-uniform sampler2D unshadowedTexture;
 layout(std430) writeonly buffer Exposure { float exposure; };
+layout(std430) readonly buffer RowSums { vec2 rowSums[]; };
 
 shared vec2 sums[256];
 
 void main() {
-    ivec2 size = textureSize(unshadowedTexture, 0);
-    int self = int(gl_LocalInvocationID.x);
+    int self = int(gl_LocalInvocationID.x), rows = rowSums.length();
     vec2 sum = vec2(0.0);
-    for (int i = self; i < size.x * size.y; i += 256) {
-        vec4 radiance = texelFetch(unshadowedTexture, ivec2(i % size.x, i / size.x), 0);
-        float luminance = dot(radiance.rgb, vec3(0.2126, 0.7152, 0.0722));
-        if (luminance > 0.0) sum += vec2(luminance, 1.0);
-    }
+    for (int row = self; row < rows; row += 256) sum += rowSums[row];
     sums[self] = sum;
     for (int width = 128; width > 0; width /= 2) {
         barrier();

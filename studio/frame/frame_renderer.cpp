@@ -66,6 +66,7 @@ FrameRenderer::FrameRenderer(Device& device, std::filesystem::path shaderSourceD
       shaders_(makeShaderLibrary(std::move(shaderSourceDirectory))),
       gbuffer_(shaders_),
       lighting_(shaders_, {"studio/frame/lighting.comp.glsl"}),
+      exposureRows_(shaders_, {"studio/frame/exposure_rows.comp.glsl"}),
       exposure_(shaders_, {"studio/frame/exposure.comp.glsl"}),
       toneMap_(shaders_, {"studio/frame/tone_map.comp.glsl"}),
       exposureResult_(sizeof(float), "exposure") {}
@@ -80,6 +81,7 @@ void FrameRenderer::resize(int width_px, int height_px) {
     illuminance_ = make(gl::Format::r32f, "illuminance");
     reach_ = make(gl::Format::r32f, "unshadowed irradiance of one light");
     display_ = make(gl::Format::rgba8, "display");
+    rowSums_ = gl::Buffer(std::size_t(height_px) * sizeof(glm::vec2), "exposure, row by row");
 }
 
 void FrameRenderer::draw(const GpuScene& scene, const SceneMoment& moment, const Camera& camera, int width_px,
@@ -92,8 +94,9 @@ void FrameRenderer::draw(const GpuScene& scene, const SceneMoment& moment, const
 }
 
 void FrameRenderer::beginLighting() {
-    radiance_.clear();
-    unshadowed_.clear();
+    // What glows is seen before any light is there.
+    gbuffer_.emission().copyTo(radiance_);
+    gbuffer_.emission().copyTo(unshadowed_);
     illuminance_.clear();
 }
 
@@ -165,7 +168,11 @@ Image FrameRenderer::readRadiance() const {
 
 const gl::Texture& FrameRenderer::toneMap() {
     const gl::DebugGroup group("tone mapping");
-    gl::Pass(exposure_).bind("unshadowedTexture", unshadowed_).bind("Exposure", exposureResult_).dispatch(1);
+    gl::Pass(exposureRows_)
+        .bind("unshadowedTexture", unshadowed_)
+        .bind("RowSums", rowSums_)
+        .dispatch(GLuint(display_.height_px()));
+    gl::Pass(exposure_).bind("RowSums", rowSums_).bind("Exposure", exposureResult_).dispatch(1);
     gl::Pass(toneMap_)
         .bind("radianceTexture", radiance_)
         .bind("albedoTexture", gbuffer_.albedo())

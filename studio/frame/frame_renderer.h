@@ -67,8 +67,8 @@ class FrameRenderer {
     Device& device_;
     gl::ShaderLibrary shaders_;
     GBuffer gbuffer_;
-    gl::Program lighting_, exposure_, toneMap_;
-    gl::Buffer exposureResult_;
+    gl::Program lighting_, exposureRows_, exposure_, toneMap_;
+    gl::Buffer exposureResult_, rowSums_;
     gl::Texture radiance_, unshadowed_, illuminance_, reach_, display_;
     const GpuScene* scene_ = nullptr;
     CameraView camera_;

@@ -6,15 +6,18 @@ layout(std140, binding = 0) uniform InstanceBlock { InstanceConstants instance; 
 layout(std430, binding = 0) readonly buffer Positions { float positions[]; };
 layout(std430, binding = 1) readonly buffer Indices { uint indices[]; };
 layout(binding = 0) uniform sampler2D baseColorTexture;
+layout(binding = 1) uniform sampler2D emissionTexture;
 
 layout(location = 0) in vec3 posView;
 layout(location = 1) in vec3 normalView;
 layout(location = 2) in vec2 uv;
+layout(location = 3) in vec3 vertexColor;
 
 layout(location = 0) out vec4 geometricNormalWorld;
 layout(location = 1) out vec4 shadingNormalWorld;
 layout(location = 2) out vec4 albedo;  // a: 1 lit, 0 unlit
 layout(location = 3) out float receives;
+layout(location = 4) out vec4 emission;  // nits
 
 vec3 corner(int i) {
     uint first = 3u * indices[3 * gl_PrimitiveID + i];
@@ -22,7 +25,7 @@ vec3 corner(int i) {
 }
 
 void main() {
-    vec4 color = instance.baseColor;
+    vec4 color = instance.baseColor * vec4(vertexColor, 1.0);
     if (instance.flags.x == 1) color *= texture(baseColorTexture, uv);
     if (color.a < instance.alpha.x) discard;
 
@@ -40,4 +43,6 @@ void main() {
     shadingNormalWorld = vec4(mat3(instance.worldFromView) * shadingView, 0.0);
     albedo = vec4(color.rgb, instance.flags.z == 1 ? 0.0 : 1.0);
     receives = float(instance.flags.y);
+    emission = vec4(instance.emission.rgb, 1.0);
+    if (instance.emission.a > 0.5) emission.rgb *= texture(emissionTexture, uv).rgb;
 }

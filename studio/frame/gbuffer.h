@@ -23,15 +23,19 @@ class GBuffer {
     const View& view() const { return view_; }
     const gl::Texture& shadingNormals() const { return shadingNormals_; }
     const gl::Texture& albedo() const { return albedo_; }
+    const gl::Texture& emission() const { return emission_; }  ///< nits, RGBA32F
 
   private:
     void resize(int width_px, int height_px);
 
-    gl::Program program_;
+    InstanceConstants constantsOf(const GpuScene::Drawable& drawable, const CameraView& camera) const;
+    void draw(const GpuScene& scene, const CameraView& camera, bool glass);
+
+    gl::Program program_, glass_;
     gl::VertexArrayHandle vertices_;
     gl::ConstantBuffer<InstanceConstants> constants_;
-    gl::Texture depth_, geometricNormals_, shadingNormals_, albedo_, receivers_;
-    gl::Framebuffer framebuffer_;
+    gl::Texture depth_, geometricNormals_, shadingNormals_, albedo_, receivers_, emission_;
+    gl::Framebuffer framebuffer_, glassFramebuffer_;
     View view_;
 };
 

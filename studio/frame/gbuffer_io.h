@@ -17,12 +17,13 @@ struct InstanceConstants {
     mat4 worldFromView;       // rotates normals
     mat4 viewFromMeshNormal;  // rotates and stretches normals; not unit
     vec4 baseColor;
-    vec4 alpha;   // x: cutoff, or -1 where there is no mask
-    ivec4 flags;  // x: has a texture; y: receives; z: unlit; w: orthographic view
+    vec4 emission;  // rgb: nits; a: 1 where a texture multiplies them
+    vec4 alpha;     // x: cutoff, or -1 where there is no mask; y: 1 where vertices have colours
+    ivec4 flags;    // x: has a texture; y: receives; z: unlit; w: orthographic view
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(InstanceConstants) == 304);
+static_assert(sizeof(InstanceConstants) == 320);
 }  // namespace penumbra::studio
 #endif
 #endif

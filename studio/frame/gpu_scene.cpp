@@ -6,6 +6,7 @@
 
 #include "studio/frame/conversions.h"
 #include "studio/scene/profiles/light_profile.h"
+#include "studio/scene/solid.h"
 
 namespace penumbra::studio {
 namespace {
@@ -67,10 +68,12 @@ GpuScene::GpuScene(Device& device, const Scene& scene)
 }
 
 GpuScene::MeshOnDevice GpuScene::upload(const Mesh& mesh) {
+    std::optional<gl::Buffer> colors;
+    if (!mesh.colors.empty()) colors.emplace(std::as_bytes(std::span(mesh.colors)), "mesh colours");
     return {penumbra::Mesh(device_, {.positions = asPenumbra(std::span(mesh.positions)),
                                      .indices = mesh.indices,
                                      .uvs = asPenumbra(std::span(mesh.uvs))}),
-            gl::Buffer(std::as_bytes(std::span(mesh.normals)), "mesh normals")};
+            gl::Buffer(std::as_bytes(std::span(mesh.normals)), "mesh normals"), std::move(colors)};
 }
 
 const gl::Buffer& GpuScene::profile(const Light& light) const {
@@ -102,6 +105,8 @@ void GpuScene::update(const SceneMoment& moment) {
     drawables_.clear();
     casters_.clear();
     std::size_t nextDeforming = 0;
+    std::vector<int> surfaces;  // of the caster that was added last
+    const Instance* first = nullptr;
     for (const Instance& instance : moment.instances) {
         const Mesh& mesh = scene_.meshes[std::size_t(instance.mesh)];
         const Material& material = scene_.materials[std::size_t(mesh.material)];
@@ -111,24 +116,60 @@ void GpuScene::update(const SceneMoment& moment) {
             onDevice->mesh.deform(asPenumbra(std::span(instance.positions)));
             onDevice->normals.write(std::as_bytes(std::span(instance.normals)));
         }
-        drawables_.push_back(
-            {&onDevice->mesh, &onDevice->normals, &material, instance.worldFromMesh, instance.receives});
+        drawables_.push_back({.mesh = &onDevice->mesh,
+                              .normals = &onDevice->normals,
+                              .colorBuffer = onDevice->colors ? onDevice->colors->name() : 0,
+                              .material = &material,
+                              .worldFromMesh = instance.worldFromMesh,
+                              .receives = instance.receives});
 
-        Caster caster{.mesh = &onDevice->mesh,
-                      .worldFromMesh = toPenumbra(instance.worldFromMesh),
-                      .casts = instance.casts,
-                      .receives = instance.receives};
-        if (material.alpha == Material::Alpha::mask && material.baseColorTexture >= 0) {
-            // Textures live as long as the scene's meshes, whose ids are never used again.
-            caster.alphaMask = {.texture = texture(material.baseColorTexture),
-                                .factor = material.baseColor.a,
-                                .cutoff = material.alphaCutoff,
-                                .revision = 1 + shared_.front().mesh.id()};
-        } else if (material.alpha == Material::Alpha::mask && material.baseColor.a < material.alphaCutoff) {
-            caster.casts = false;  // all of it is a hole
+        const bool isSolid =
+            mesh.solid >= 0 && !isDeformed(instance) && material.alpha == Material::Alpha::opaque;
+        const bool goesOn = isSolid && first && first->node == instance.node &&
+                            scene_.meshes[std::size_t(first->mesh)].solid == mesh.solid &&
+                            first->worldFromMesh == instance.worldFromMesh &&
+                            first->casts == instance.casts && first->receives == instance.receives &&
+                            std::ranges::find(surfaces, instance.mesh) == surfaces.end();
+        if (goesOn) {
+            surfaces.push_back(instance.mesh);
+            casters_.back().mesh = nullptr;  // below, once all of its surfaces are known
+        } else {
+            if (!casters_.empty() && !casters_.back().mesh)
+                casters_.back().mesh = &solidOf(std::move(surfaces));
+            surfaces = {instance.mesh};
+            first = isSolid ? &instance : nullptr;
+            casters_.push_back(casterOf(instance, *onDevice));
         }
-        casters_.push_back(caster);
     }
+    if (!casters_.empty() && !casters_.back().mesh) casters_.back().mesh = &solidOf(std::move(surfaces));
+}
+
+Caster GpuScene::casterOf(const Instance& instance, const MeshOnDevice& onDevice) const {
+    const Mesh& mesh = scene_.meshes[std::size_t(instance.mesh)];
+    const Material& material = scene_.materials[std::size_t(mesh.material)];
+    Caster caster{.mesh = &onDevice.mesh,
+                  .worldFromMesh = toPenumbra(instance.worldFromMesh),
+                  .casts = instance.casts,
+                  .receives = instance.receives};
+    if (material.alpha == Material::Alpha::mask && material.baseColorTexture >= 0) {
+        // Textures live as long as the scene's meshes, whose ids are never used again.
+        caster.alphaMask = {.texture = texture(material.baseColorTexture),
+                            .factor = material.baseColor.a,
+                            .cutoff = material.alphaCutoff,
+                            .revision = 1 + shared_.front().mesh.id()};
+    } else if (material.alpha == Material::Alpha::mask && material.baseColor.a < material.alphaCutoff) {
+        caster.casts = false;  // all of it is a hole
+    }
+    return caster;
+}
+
+const penumbra::Mesh& GpuScene::solidOf(std::vector<int> meshes) {
+    const auto known = solids_.find(meshes);
+    if (known != solids_.end()) return known->second;
+    const Solid solid = joinMeshes(scene_, meshes);
+    penumbra::Mesh mesh(device_,
+                        {.positions = asPenumbra(std::span(solid.positions)), .indices = solid.indices});
+    return solids_.emplace(std::move(meshes), std::move(mesh)).first->second;
 }
 
 }  // namespace penumbra::studio

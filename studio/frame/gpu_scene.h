@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "penumbra/penumbra.h"
@@ -25,11 +26,14 @@ class GpuScene {
     struct Drawable {
         const penumbra::Mesh* mesh = nullptr;
         const gl::Buffer* normals = nullptr;
+        GLuint colorBuffer = 0;  ///< three floats a vertex; 0: white
         const Material* material = nullptr;
         glm::mat4 worldFromMesh{1};
         bool receives = true;
+        bool isGlass() const { return material->glass.has_value(); }
     };
     const std::vector<Drawable>& drawables() const { return drawables_; }
+    /// The surfaces of one solid are one caster, unless they deform or have holes.
     const std::vector<Caster>& casters() const { return casters_; }
 
     /// Texture name for an index into Scene::textures; 0 for -1.
@@ -51,8 +55,11 @@ class GpuScene {
     struct MeshOnDevice {
         penumbra::Mesh mesh;
         gl::Buffer normals;
+        std::optional<gl::Buffer> colors;
     };
     MeshOnDevice upload(const Mesh& mesh);
+    Caster casterOf(const Instance& instance, const MeshOnDevice& onDevice) const;
+    const penumbra::Mesh& solidOf(std::vector<int> meshes);
 
     Device& device_;
     const Scene& scene_;
@@ -62,6 +69,7 @@ class GpuScene {
     gl::Buffer noProfile_;
     std::vector<MeshOnDevice> shared_;     ///< one a mesh of the scene
     std::vector<MeshOnDevice> deforming_;  ///< one an instance that deforms, in their order
+    std::map<std::vector<int>, penumbra::Mesh> solids_;  ///< of several meshes each, as casters
     std::vector<Drawable> drawables_;
     std::vector<Caster> casters_;
 };

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <memory>
 #include <string_view>
@@ -14,7 +15,9 @@
 #include "studio/errors.h"
 #include "studio/scene/builtin/builtin.h"
 #include "studio/scene/builtin/placing.h"
+#include "studio/scene/default_camera.h"
 #include "studio/scene/gltf/gltf.h"
+#include "studio/scene/hints.h"
 #include "studio/scene/lights/nearest_name.h"
 #include "studio/scene/lights/sidecar.h"
 
@@ -43,6 +46,21 @@ class WithDefaults : public Scene::Motion {
     std::optional<Camera> camera_;
 };
 
+/// A scene without its animations.
+class StandsStill : public Scene::Motion {
+  public:
+    explicit StandsStill(std::shared_ptr<const Scene::Motion> inner) : inner_(std::move(inner)) {}
+
+    SceneMoment at(const Scene& scene, double time_s) const override {
+        SceneMoment moment = inner_->at(scene, 0);
+        moment.time_s = time_s;
+        return moment;
+    }
+
+  private:
+    std::shared_ptr<const Scene::Motion> inner_;
+};
+
 /// The sun, beside the lights that a file has named, or in place of the scene's own. It stands still: an
 /// animation lasts seconds.
 class WithSun : public Scene::Motion {
@@ -68,13 +86,13 @@ class WithSun : public Scene::Motion {
     bool keepsLights_;
 };
 
-/// The bounds at all times, near enough: over eight moments of the animation that plays.
-Bounds boundsOverTime(const Scene& scene, const SceneMoment& start, int animation) {
+/// The bounds at all times, near enough: over eight moments of the animations that play.
+Bounds boundsOverTime(const Scene& scene, const SceneMoment& start) {
     Bounds bounds = start.bounds;
-    if (animation < 0 || std::size_t(animation) >= scene.animations.size()) return bounds;
+    if (scene.duration_s() == 0) return bounds;
     constexpr int steps = 8;
     for (int step = 1; step < steps; ++step) {
-        const Bounds moved = scene.at(scene.animations[animation].duration_s * step / steps).bounds;
+        const Bounds moved = scene.at(scene.duration_s() * step / steps).bounds;
         if (moved.empty()) continue;
         bounds.include(moved.min);
         bounds.include(moved.max);
@@ -82,10 +100,10 @@ Bounds boundsOverTime(const Scene& scene, const SceneMoment& start, int animatio
     return bounds;
 }
 
-void addDefaults(Scene& scene, const std::string& nameForMessages, int animation) {
+void addDefaults(Scene& scene, const std::string& nameForMessages) {
     const SceneMoment start = scene.at(0);
     if (!start.lights.empty() && !start.cameras.empty()) return;
-    const Bounds bounds = boundsOverTime(scene, start, animation);
+    const Bounds bounds = boundsOverTime(scene, start);
     std::optional<Light> light;
     std::optional<Camera> camera;
     if (start.lights.empty()) {
@@ -94,9 +112,8 @@ void addDefaults(Scene& scene, const std::string& nameForMessages, int animation
                                              nameForMessages, light->shape.width_m));
     }
     if (start.cameras.empty()) {
-        camera = framingCamera("default", bounds);
-        scene.warnings.push_back(
-            fmt::format("{} has no camera: added one that frames everything", nameForMessages));
+        camera = defaultCamera(scene, start, bounds);
+        scene.warnings.push_back(fmt::format("{} has no camera: added one", nameForMessages));
     }
     scene.motion = std::make_shared<WithDefaults>(scene.motion, std::move(light), std::move(camera));
 }
@@ -110,9 +127,14 @@ Scene openBuiltin(const std::string& name, const OpenOptions& options) {
     if (options.scene.value_or(0) != 0)
         throw InputError(
             fmt::format("built-in scene '{}' has no scene {}: it has one, 0", name, *options.scene));
-    if (options.animation < -1 || options.animation > std::max(0, int(scene.animations.size()) - 1))
-        throw InputError(fmt::format("built-in scene '{}' has no animation {}: it has {}", name,
-                                     options.animation, scene.animations.size()));
+    if (options.animations && options.animations->empty()) {
+        for (Animation& animation : scene.animations) animation.plays = false;
+        scene.motion = std::make_shared<StandsStill>(scene.motion);
+    }
+    for (const int index : options.animations.value_or(std::vector<int>{}))
+        if (index < 0 || std::size_t(index) >= scene.animations.size())
+            throw InputError(fmt::format("built-in scene '{}' has no animation {}: it has {}", name, index,
+                                         scene.animations.size()));
     return scene;
 }
 
@@ -132,15 +154,36 @@ Scene openFile(const fs::path& file, const OpenOptions& options) {
     std::ranges::transform(extension, extension.begin(),
                            [](unsigned char c) { return char(std::tolower(c)); });
     if (extension != ".gltf" && extension != ".glb")
-        throw InputError(
-            fmt::format("'{}' is not a scene that can be read: only glTF 2.0, .gltf or .glb", file.string()));
+        throw InputError(fmt::format("'{}' is not a scene that can be read: only glTF 2.0, .gltf or .glb{}",
+                                     file.string(), wayToGltf(file)));
     GltfOptions gltf;
     gltf.scene = options.scene;
-    gltf.animation = options.animation;
-    return loadGltf(file, gltf);
+    gltf.glass = options.glass;
+    gltf.unit_m = options.unit_m;
+    gltf.up = options.up;
+    gltf.animations = options.animations;
+    Scene scene = loadGltf(file, gltf);
+    const SceneMoment start = scene.at(0);
+    if (options.unit_m == 1)
+        if (const auto hint = unitHint(start))
+            scene.warnings.push_back(fmt::format("{} {}", file.string(), *hint));
+    if (options.up == UpAxis::y)
+        if (const auto hint = upHint(scene, start))
+            scene.warnings.push_back(fmt::format("{} {}", file.string(), *hint));
+    return scene;
 }
 
 }  // namespace
+
+std::span<const std::pair<std::string_view, double>> lengthUnits_m() {
+    static constexpr std::array<std::pair<std::string_view, double>, 5> units = {
+        {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}, {"in", 0.0254}, {"ft", 0.3048}}};
+    return units;
+}
+
+std::string_view nameOfUnit(double unit_m) {
+    return std::ranges::find(lengthUnits_m(), unit_m, &std::pair<std::string_view, double>::second)->first;
+}
 
 Scene openScene(const std::string& nameOrPath, const OpenOptions& options) {
     const bool builtin = isBuiltin(nameOrPath);
@@ -162,7 +205,7 @@ Scene openScene(const std::string& nameOrPath, const OpenOptions& options) {
         Light sun = sunLight("sun", options.sun->place, options.sun->setting, "--sun");
         scene.motion = std::make_shared<WithSun>(scene.motion, std::move(sun), fileHasLights);
     }
-    addDefaults(scene, nameOrPath, options.animation);
+    addDefaults(scene, nameOrPath);
     return scene;
 }
 

@@ -4,7 +4,11 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "studio/scene/scene.h"
 #include "studio/scene/sun/sun.h"
@@ -22,17 +26,25 @@ struct OpenOptions {
     /// Lights from this file (see docs/lights.md) instead of from SCENE.lights.json beside the scene.
     std::optional<std::filesystem::path> lightsFile;
     std::optional<SunOption> sun;
-    int animation = 0;         ///< which clip plays, of a file that has any; -1: the rest pose
+    /// Which animations play together; none: the rest pose. Unset: all that move different things.
+    std::optional<std::vector<int>> animations;
     std::optional<int> scene;  ///< which of a glTF file's scenes; the file's own default where unset
+    Glass glass = Glass::clear;
+    double unit_m = 1;  ///< of a file that does not keep to glTF's metre
+    UpAxis up = UpAxis::y;
 };
+
+/// The lengths that a file's coordinates may count, by name: mm, cm, m, in, ft.
+std::span<const std::pair<std::string_view, double>> lengthUnits_m();
+std::string_view nameOfUnit(double unit_m);
 
 /// Opens a built-in scene of this name, or else the .gltf or .glb file (`./NAME` for a file named like a
 /// built-in).
 ///
 /// Its lights are those of `lightsFile`, else of the sidecar (chair.lights.json beside chair.glb) if there is
 /// one, else its own. The sun is added to those of a file; the scene's own it replaces. A scene that has none
-/// gets a key light over it, and one without a camera gets one that frames everything at all times; both are
-/// said in Scene::warnings.
+/// gets a key light over it, and one without a camera gets one (defaultCamera); both are said in
+/// Scene::warnings, as are doubts about unit and axes.
 ///
 /// Throws InputError, which names the file and the remedy, for whatever is missing or wrong.
 Scene openScene(const std::string& nameOrPath, const OpenOptions& options = {});

@@ -123,11 +123,22 @@ TEST_F(OpenScene, ErrorsSayWhatToDo) {
     EXPECT_EQ(errorOf(folder.string()),
               "'" + folder.string() + "' is a directory: name a .gltf or .glb file in it");
     const std::string obj = write("a.obj", "v 0 0 0");
-    EXPECT_EQ(errorOf(obj), "'" + obj + "' is not a scene that can be read: only glTF 2.0, .gltf or .glb");
+    EXPECT_EQ(errorOf(obj),
+              "'" + obj +
+                  "' is not a scene that can be read: only glTF 2.0, .gltf or .glb; assimp (Debian: "
+                  "assimp-utils) writes one: assimp export " +
+                  obj + " OUT.glb -fglb2");
+    const std::string text = write("a.txt", "v 0 0 0");
+    EXPECT_EQ(errorOf(text), "'" + text + "' is not a scene that can be read: only glTF 2.0, .gltf or .glb");
+    for (const auto& [name, command] : {std::pair("a.IFC", "IfcConvert "),
+                                        {"a.stp", "ReadStep D "},
+                                        {"tile.b3dm", "b3dmToGlb -i "},
+                                        {"town.city.json", "cjio "}})
+        EXPECT_NE(errorOf(write(name, "x")).find(command), std::string::npos) << name;
     OpenOptions options;
     options.lightsFile = folder / "none.json";
     EXPECT_EQ(errorOf("torus", options), "lights: '" + (folder / "none.json").string() + "' does not exist");
-    options = {.animation = 1};
+    options = {.animations = std::vector{1}};
     EXPECT_EQ(errorOf("moving", options), "built-in scene 'moving' has no animation 1: it has 1");
     options = {.scene = 1};
     EXPECT_EQ(errorOf("moving", options), "built-in scene 'moving' has no scene 1: it has one, 0");

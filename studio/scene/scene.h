@@ -24,6 +24,13 @@ struct Bounds {
     float radius() const { return empty() ? 0 : 0.5f * glm::length(max - min); }
 };
 
+/// Whether a box is so much farther from the origin than large that its middle is the better origin for
+/// floats.
+inline bool isFar(const glm::dvec3& min, const glm::dvec3& max) {
+    constexpr double manyTimes = 8;
+    return glm::length(0.5 * (min + max)) > manyTimes * 0.5 * glm::length(max - min);
+}
+
 /// A decoded picture: 8-bit sRGB-encoded colour with linear alpha, rows from the top.
 struct Picture {
     std::string name;
@@ -38,16 +45,32 @@ struct Texture {
     int wrapS = 10497, wrapT = 10497;        // GL_REPEAT
 };
 
+/// The axis of a file's coordinates that points away from the ground.
+enum class UpAxis { y, z };
+
+/// What surfaces do to light that one can see through: glTF's BLEND with an alpha below 0.5, transmission
+/// above 0.5.
+enum class Glass {
+    clear,   ///< they let it through
+    blocks,  ///< they cast shadows as all others do
+};
+
 struct Material {
-    enum class Alpha { opaque, mask };  // glTF's BLEND is loaded as opaque, with a warning
+    enum class Alpha { opaque, mask };
     std::string name;
     glm::vec4 baseColor{1};  ///< linear; alpha multiplies the texture's
-    /// Index into Scene::textures; its UV set and transform are baked into Mesh::uvs
+    /// Index into Scene::textures; its UV set and transform are baked into Mesh::uvs. Where alpha varies over
+    /// vertices and not over a picture, the texture is a ramp, at whose place for its alpha each vertex is.
     int baseColorTexture = -1;
     Alpha alpha = Alpha::opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
     bool unlit = false;
+    /// Where set, a pane: what is behind it is seen through it, multiplied by this colour, and it casts no
+    /// shadow unless its node's `casts` says so.
+    std::optional<glm::vec3> glass;
+    glm::vec3 emission_nits{0};  ///< linear; seen, but lights nothing
+    int emissionTexture = -1;    ///< multiplies it; index into Scene::textures, at Mesh::uvs
 };
 
 struct MorphTarget {
@@ -58,10 +81,13 @@ struct MorphTarget {
 /// A triangle list of one material (a glTF primitive, whatever its stored mode).
 struct Mesh {
     std::string name;
+    int solid =
+        -1;  ///< meshes of one number are surfaces of one thing, of a material each; -1: a thing of its own
     int material = 0;  ///< index into Scene::materials, always valid
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;  ///< one a vertex, unit; flat ones are computed where the file has none
     std::vector<glm::vec2> uvs;      ///< one a vertex, or empty where the material has no texture
+    std::vector<glm::vec3> colors;   ///< one a vertex, linear, multiply the base colour; or empty: white
     std::vector<std::uint32_t> indices;
     std::vector<MorphTarget> morphTargets;
     std::vector<float> morphWeights;      ///< default weights, one a target
@@ -130,13 +156,14 @@ struct SceneMoment {
     std::vector<glm::mat4> worldFromNode;  ///< one for each of Scene::nodeNames
     std::vector<Instance> instances;
     std::vector<Light> lights;
-    std::vector<Camera> cameras;  ///< never empty: a scene without one gets one that frames everything
+    std::vector<Camera> cameras;  ///< never empty once opened: a scene without one gets one
     Bounds bounds;                ///< of all instances
 };
 
 struct Animation {
     std::string name;
     double duration_s = 0;
+    bool plays = true;
 };
 
 /// What was loaded, and how it moves.
@@ -158,6 +185,12 @@ class Scene {
     std::vector<Animation> animations;
     std::vector<std::string> warnings;  ///< each names the place in the file
     std::shared_ptr<const Motion> motion;
+    /// From the coordinates of the file, in its unit and with its axes, to those of the moments: metres, Y
+    /// up, from an origin near the scene. What a user states or reads is in the file's.
+    glm::dmat4 worldFromFile{1};
+
+    /// Of the longest animation that plays, after which they start again; 0: nothing moves.
+    double duration_s() const;
 
     SceneMoment at(double time_s) const { return motion->at(*this, time_s); }
 };

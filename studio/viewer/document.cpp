@@ -24,12 +24,6 @@ Document::Document(Device& device, const std::string& nameOrPath, const OpenOpti
     update();
 }
 
-double Document::duration_s() const {
-    const auto index = std::size_t(std::max(options_.animation, 0));
-    if (options_.animation < 0 || index >= scene_->animations.size()) return 0;
-    return scene_->animations[index].duration_s;
-}
-
 void Document::setTime(double time_s) {
     moment_ = scene_->at(time_s);
     update();

@@ -24,8 +24,8 @@ class Document {
     /// Everything, at all times: where a camera that frames all must look.
     const Bounds& bounds() const { return bounds_; }
 
-    /// Length of the animation that plays, 0 without one.
-    double duration_s() const;
+    /// Length of the animations that play, 0 without one.
+    double duration_s() const { return scene_->duration_s(); }
     void setTime(double time_s);
     double time_s() const { return moment_.time_s; }
     /// Counts changes of what casts shadows.

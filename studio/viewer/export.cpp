@@ -2,6 +2,7 @@
 #include "studio/viewer/export.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -14,7 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string triple(const glm::vec3& v) {
+/// A place in the coordinates of the scene's file.
+std::string triple(const Scene& scene, const glm::vec3& posWorld) {
+    if (scene.worldFromFile == glm::dmat4(1))
+        return fmt::format("{},{},{}", posWorld.x, posWorld.y, posWorld.z);
+    const glm::dvec3 v = glm::inverse(scene.worldFromFile) * glm::dvec4(posWorld, 1);
     return fmt::format("{},{},{}", v.x, v.y, v.z);
 }
 
@@ -25,7 +30,9 @@ std::string cameraFlags(const Session& session) {
         return fmt::format(" --camera {}", session.choices().sceneCamera);
     }
     const LookAt look = session.cameraControl().lookAt();
-    std::string flags = fmt::format(" --look-from={} --look-at={}", triple(look.eye), triple(look.target));
+    const Scene& scene = session.document().scene();
+    std::string flags =
+        fmt::format(" --look-from={} --look-at={}", triple(scene, look.eye), triple(scene, look.target));
     return flags + (look.height_m ? fmt::format(" --ortho-height={}", *look.height_m)
                                   : fmt::format(" --fov={}", look.fov_deg));
 }
@@ -107,7 +114,13 @@ std::string renderCommand(Session& session, const fs::path& folder) {
         if (!options.sun->setting.refraction) line += " --no-refraction";
     }
     if (options.scene) line += fmt::format(" --scene {}", *options.scene);
-    if (options.animation != 0) line += fmt::format(" --animation {}", options.animation);
+    if (options.up == UpAxis::z) line += " --up z";
+    if (options.unit_m != 1) line += fmt::format(" --unit {}", nameOfUnit(options.unit_m));
+    if (options.glass == Glass::blocks) line += " --glass blocks";
+    if (options.animations)
+        line += options.animations->empty()
+                    ? " --animation=-1"
+                    : fmt::format(" --animation {}", fmt::join(*options.animations, ","));
     if (document.time_s() != 0) line += fmt::format(" --time {}", document.time_s());
     line += cameraFlags(session) + techniqueFlags(session);
     line += fmt::format(" --size {}x{} -o picture.png", session.width_px(), session.height_px());

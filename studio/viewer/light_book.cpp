@@ -74,7 +74,7 @@ std::vector<Light> throughText(const std::vector<SidecarLight>& lights) {
         light.texture = lights[i].light.texture;
         light.profile = lights[i].light.profile;
         if (light.profile && light.profile->isLuminaire) light.shape = lights[i].light.shape;
-        place(light, gltf::rigidPart(read.lights->at(i).parentFromLight));
+        place(light, gltf::rigidPart(glm::mat4(read.lights->at(i).parentFromLight)));
         result.push_back(std::move(light));
     }
     return result;
@@ -104,12 +104,15 @@ struct LightFiles {
 LightFiles filesOf(const Scene& scene, std::vector<SidecarLight> lights, const std::string& stem,
                    std::vector<SidecarNode> nodes) {
     LightFiles files;
+    const glm::dmat4 fileFromWorld = glm::inverse(scene.worldFromFile);
     for (std::size_t i = 0; i < lights.size(); ++i) {
         if (lights[i].profile) {
             const LightProfile& profile = *lights[i].light.profile->profile;
             lights[i].profile->file = fmt::format("{}.light{}{}", stem, i + 1, extensionOf(profile));
             files.profiles.emplace_back(lights[i].profile->file, profile.text);
         }
+        if (scene.worldFromFile != glm::dmat4(1))
+            lights[i].parentFromLight = fileFromWorld * lights[i].parentFromLight;
         const int texture = lights[i].light.texture;
         if (texture < 0) continue;
         const Picture& picture = scene.pictures[std::size_t(scene.textures[std::size_t(texture)].picture)];

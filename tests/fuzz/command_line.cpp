@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         arguments.openOptions();
         SceneMoment moment;
         moment.cameras.emplace_back();
-        arguments.cameraIn(moment);
+        arguments.cameraIn(Scene(), moment);
         parseContenders(techniques, settings);
     } catch (const UsageError&) {
     } catch (const CLI::Error&) {

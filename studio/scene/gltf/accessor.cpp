@@ -10,6 +10,8 @@
 #include <cstring>
 #include <limits>
 
+#include "studio/scene/gltf/meshopt_view.h"
+
 namespace penumbra::studio::gltf {
 
 static_assert(std::endian::native == std::endian::little,
@@ -139,7 +141,7 @@ std::size_t sizeOf_bytes(ComponentType type) {
 Accessors::Accessors(const Document& document, const std::filesystem::path& folder, Budget& budget) {
     const JsonView root = document.root();
     readBuffers(document, folder, budget);
-    readViews(root);
+    readViews(root, budget);
     for (const JsonView& json : root.list("accessors")) accessors_.push_back(readAccessor(json, budget));
 }
 
@@ -160,18 +162,35 @@ void Accessors::readBuffers(const Document& document, const std::filesystem::pat
     }
 }
 
-void Accessors::readViews(const JsonView& root) {
+std::span<const std::byte> Accessors::rangeOf(const JsonView& json, std::uint64_t& offset) const {
+    const int buffer = json.at("buffer").asIndex(buffers_.size());
+    offset = std::uint64_t(json.integer("byteOffset", 0, 0, maxSize_bytes));
+    const std::uint64_t length = std::uint64_t(json.at("byteLength").asInteger(1, maxSize_bytes));
+    const std::optional<Bytes>& bytes = buffers_[std::size_t(buffer)];
+    if (!bytes) json.fail(fmt::format("refers to buffer {}, which has no data", buffer));
+    if (offset + length > bytes->size())
+        json.fail(fmt::format("ends at byte {} of a buffer of {}", offset + length, bytes->size()));
+    return std::span(*bytes).subspan(offset, length);
+}
+
+void Accessors::readViews(const JsonView& root, Budget& budget) {
     for (const JsonView& json : root.list("bufferViews")) {
-        const int buffer = json.at("buffer").asIndex(buffers_.size());
-        const std::uint64_t offset = std::uint64_t(json.integer("byteOffset", 0, 0, maxSize_bytes));
-        const std::uint64_t length = std::uint64_t(json.at("byteLength").asInteger(1, maxSize_bytes));
         const std::int64_t stride = json.integer("byteStride", 0, 4, 252);
         if (stride % 4 != 0) json.at("byteStride").fail("must be a multiple of 4");
-        const std::optional<Bytes>& bytes = buffers_[std::size_t(buffer)];
-        if (!bytes) json.fail(fmt::format("refers to buffer {}, which has no data", buffer));
-        if (offset + length > bytes->size())
-            json.fail(fmt::format("ends at byte {} of a buffer of {}", offset + length, bytes->size()));
-        views_.push_back({std::span(*bytes).subspan(offset, length), offset, std::size_t(stride)});
+        BufferView& view = views_.emplace_back();
+        view.stride_bytes = std::size_t(stride);
+        if (const auto compressed = json.extension("EXT_meshopt_compression")) {
+            // The buffer that the view itself names is for those who cannot read the other, and may have no
+            // data.
+            json.at("buffer").asIndex(buffers_.size());
+            std::uint64_t offset = 0;
+            const std::span<const std::byte> bytes = rangeOf(*compressed, offset);
+            const auto length = std::uint64_t(json.at("byteLength").asInteger(1, maxSize_bytes));
+            view.bytes = decompressed_.emplace_back(
+                decompress(readMeshoptView(*compressed, length), bytes, *compressed, budget));
+        } else {
+            view.bytes = rangeOf(json, view.offset_bytes);
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -54,10 +55,13 @@ class Accessors {
 
   private:
     void readBuffers(const Document& document, const std::filesystem::path& folder, Budget& budget);
-    void readViews(const JsonView& root);
+    /// The bytes of a buffer that an object's `buffer`, `byteOffset` and `byteLength` name.
+    std::span<const std::byte> rangeOf(const JsonView& json, std::uint64_t& offset) const;
+    void readViews(const JsonView& root, Budget& budget);
     Accessor readAccessor(const JsonView& json, Budget& budget) const;
 
     std::vector<std::optional<Bytes>> buffers_;  ///< without a value: neither uri nor GLB chunk
+    std::deque<Bytes> decompressed_;             ///< of views that are compressed
     std::vector<BufferView> views_;
     std::vector<Accessor> accessors_;
 };

@@ -2,8 +2,11 @@
 #include "studio/scene/gltf/animation.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
+#include <utility>
 
 namespace penumbra::studio::gltf {
 
@@ -131,29 +134,51 @@ std::vector<float> Track::at(float time_s, bool isRotation) const {
     return result;
 }
 
-Clip loadAnimations(const JsonView& root, const Accessors& accessors, const Hierarchy& hierarchy,
-                    const std::vector<MeshGroup>& meshes, int wanted, Budget& budget, Scene& scene) {
-    Clip played;
+std::vector<Channel> loadAnimations(const JsonView& root, const Accessors& accessors,
+                                    const Hierarchy& hierarchy, const std::vector<MeshGroup>& meshes,
+                                    const std::optional<std::vector<int>>& wanted, Budget& budget,
+                                    Scene& scene) {
+    std::vector<Channel> playing;
+    std::set<std::pair<int, Path>> moved;  // by what plays
+    std::vector<std::string> standing;
     for (const JsonView& json : root.list("animations")) {
         const int index = int(scene.animations.size());
-        Clip clip{.description = {.name = json.string("name", fmt::format("animation {}", index))}};
+        Animation animation{.name = json.string("name", fmt::format("animation {}", index))};
+        std::vector<Channel> channels;
         const std::vector<JsonView> samplers = json.at("samplers").elements();
         for (const JsonView& channelJson : json.at("channels").elements())
             if (auto channel = loadChannel(channelJson, samplers, accessors, hierarchy, meshes, budget,
                                            scene.warnings)) {
-                clip.description.duration_s =
-                    std::max(clip.description.duration_s, double(channel->track.times_s.back()));
-                clip.channels.push_back(std::move(*channel));
+                animation.duration_s = std::max(animation.duration_s, double(channel->track.times_s.back()));
+                channels.push_back(std::move(*channel));
             }
-        scene.animations.push_back(clip.description);
-        if (index == wanted) played = std::move(clip);
+
+        // Blender writes an animation for each object, which belong together; what moves the same thing in
+        // another way (walking, running) does not.
+        const bool isAlternative = std::ranges::any_of(channels, [&](const Channel& c) {
+            return moved.contains({c.node, c.path});
+        });
+        animation.plays = wanted ? std::ranges::find(*wanted, index) != wanted->end() : !isAlternative;
+        if (!wanted && isAlternative) standing.push_back(fmt::format("'{}'", animation.name));
+        if (animation.plays)
+            for (Channel& channel : channels) {
+                moved.insert({channel.node, channel.path});
+                playing.push_back(std::move(channel));
+            }
+        scene.animations.push_back(std::move(animation));
     }
     const int count = int(scene.animations.size());
-    if (wanted < -1 || (wanted >= count && wanted != 0))
-        throw PlaceError("/animations",
-                         fmt::format("there is no animation {}: the file has {}", wanted, count),
-                         "ask for another");
-    return played;
+    for (const int index : wanted.value_or(std::vector<int>{}))
+        if (index < 0 || index >= count)
+            throw PlaceError("/animations",
+                             fmt::format("there is no animation {}: the file has {}", index, count),
+                             "ask for another");
+    if (!standing.empty())
+        scene.warnings.push_back(
+            fmt::format("/animations: {} would move what an earlier one moves and stand{} still; --animation "
+                        "chooses",
+                        fmt::join(standing, ", "), standing.size() == 1 ? "s" : ""));
+    return playing;
 }
 
 }  // namespace penumbra::studio::gltf

@@ -27,13 +27,11 @@ struct Channel {
     Track track;
 };
 
-struct Clip {
-    Animation description;
-    std::vector<Channel> channels;
-};
-
-/// All clips of the file go to scene.animations; the wanted one is returned (-1: an empty one).
-Clip loadAnimations(const JsonView& root, const Accessors& accessors, const Hierarchy& hierarchy,
-                    const std::vector<MeshGroup>& meshes, int wanted, Budget& budget, Scene& scene);
+/// Describes all animations of the file in scene.animations, and returns the channels of those that play
+/// (GltfOptions::animations), later ones last.
+std::vector<Channel> loadAnimations(const JsonView& root, const Accessors& accessors,
+                                    const Hierarchy& hierarchy, const std::vector<MeshGroup>& meshes,
+                                    const std::optional<std::vector<int>>& wanted, Budget& budget,
+                                    Scene& scene);
 
 }  // namespace penumbra::studio::gltf

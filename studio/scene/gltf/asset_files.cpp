@@ -136,23 +136,27 @@ Bytes readFile(const fs::path& path, Budget& budget, const std::string& place) {
 Bytes readUri(const JsonView& uri, const fs::path& folder, Budget& budget) {
     const std::string& text = uri.asString();
     if (text.starts_with("data:")) return decodedDataUri(std::string_view(text).substr(5), uri, budget);
-    if (hasScheme(text)) uri.fail("must be a data URI or a path relative to the file");
+    if (hasScheme(text))
+        throw MissingFile(uri.pointer(), "must be a data URI or a path relative to the file",
+                          "download what it names and name the copy");
 
     const fs::path relative = percentDecoded(text, uri);
     if (relative.empty() || relative.is_absolute() || relative.native().find('\0') != std::string::npos ||
         std::ranges::find(relative, fs::path("..")) != relative.end())
-        uri.fail("must be a path beneath the file's own folder");
+        throw MissingFile(uri.pointer(), "must be a path beneath the file's own folder",
+                          "copy what it names there");
 
     // Symbolic links may point about within the folder, but not out of it.
     std::error_code error;
     const fs::path root = fs::canonical(folder, error);
     const fs::path target = error ? fs::path() : fs::canonical(root / relative, error);
     if (error)
-        throw PlaceError(uri.pointer(), fmt::format("'{}' is not there", relative.string()),
-                         "put the file where the scene expects it");
+        throw MissingFile(uri.pointer(), fmt::format("'{}' is not there", relative.string()),
+                          "put the file where the scene expects it");
     const auto [rootEnd, targetRest] = std::ranges::mismatch(root, target);
     if (rootEnd != root.end() || targetRest == target.end())
-        uri.fail("leads out of the file's own folder by a symbolic link");
+        throw MissingFile(uri.pointer(), "leads out of the file's own folder by a symbolic link",
+                          "copy what it names there");
     return readFile(target, budget, uri.pointer());
 }
 

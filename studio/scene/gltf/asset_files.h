@@ -20,7 +20,7 @@ Bytes readFile(const std::filesystem::path& path, Budget& budget, const std::str
 
 /// What a `uri` property names: the content of a data URI, or of a regular file beneath `folder`.
 /// Percent-decoded once; anything absolute, with a scheme, with "..", or that leaves the folder by a symbolic
-/// link is refused.
+/// link is refused: MissingFile, as for what is not there.
 Bytes readUri(const JsonView& uri, const std::filesystem::path& folder, Budget& budget);
 
 }  // namespace penumbra::studio::gltf

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cstring>
 #include <span>
 #include <string_view>
@@ -15,10 +13,6 @@ namespace {
 
 constexpr std::size_t maxJson_bytes = 64u << 20;
 constexpr int maxJsonDepth = 64;
-
-constexpr std::array<std::string_view, 6> supportedExtensions = {
-    "KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_unlit",
-    "KHR_lights_punctual",   "EXT_lights_area",       "EXT_lights_ies"};
 
 std::uint32_t littleEndian32(std::span<const std::byte> bytes, std::size_t at) {
     return std::uint32_t(bytes[at]) | std::uint32_t(bytes[at + 1]) << 8 | std::uint32_t(bytes[at + 2]) << 16 |
@@ -105,19 +99,9 @@ void checkAsset(const JsonView& root) {
     if (const auto minVersion = asset.find("minVersion"); minVersion && minVersion->asString() != "2.0")
         minVersion->fail(
             fmt::format("needs a reader of glTF {}; this one reads 2.0", minVersion->asString()));
-    for (const JsonView& required : root.list("extensionsRequired"))
-        if (!isSupportedExtension(required.asString()))
-            throw PlaceError(
-                required.pointer(),
-                fmt::format("the file requires '{}', which is not supported", required.asString()),
-                "export it without that extension");
 }
 
 }  // namespace
-
-bool isSupportedExtension(const std::string& name) {
-    return std::ranges::find(supportedExtensions, name) != supportedExtensions.end();
-}
 
 Document readDocument(const std::filesystem::path& file, Budget& budget) {
     const Bytes bytes = readFile(file, budget, "");

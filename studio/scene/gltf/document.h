@@ -21,9 +21,7 @@ struct Document {
     JsonView root() const { return {json, ""}; }
 };
 
-bool isSupportedExtension(const std::string& name);
-
-/// Reads a .gltf or .glb (told apart by content), checks the container, the version and extensionsRequired.
+/// Reads a .gltf or .glb (told apart by content), checks the container and the version.
 /// Nothing within the document is validated yet, but that it nests at most 64 deep.
 Document readDocument(const std::filesystem::path& file, Budget& budget);
 

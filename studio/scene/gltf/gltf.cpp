@@ -9,6 +9,7 @@
 #include "studio/errors.h"
 #include "studio/scene/gltf/accessor.h"
 #include "studio/scene/gltf/document.h"
+#include "studio/scene/gltf/extensions.h"
 #include "studio/scene/gltf/ies_lights.h"
 #include "studio/scene/gltf/motion.h"
 
@@ -18,30 +19,49 @@ namespace {
 
 using namespace gltf;
 
+void nameGlass(Scene& scene) {
+    const std::vector<Instance> instances = scene.at(0).instances;
+    const auto panes = std::ranges::count_if(instances, [&](const Instance& instance) {
+        return scene.materials[std::size_t(scene.meshes[std::size_t(instance.mesh)].material)]
+            .glass.has_value();
+    });
+    if (panes > 0)
+        scene.warnings.push_back(
+            fmt::format("/materials: {} pane{} of glass (alpha below 0.5, or transmission above 0.5) let{} "
+                        "light through; "
+                        "--glass blocks makes them cast",
+                        panes, panes == 1 ? "" : "s", panes == 1 ? "s" : ""));
+}
+
+glm::dmat4 worldFromFile(const GltfOptions& options) {
+    glm::dmat4 matrix(options.unit_m);
+    matrix[3][3] = 1;
+    // Z goes to Y, and what was Y away from whom X and Z face.
+    if (options.up == UpAxis::z)
+        matrix = matrix * glm::dmat4({1, 0, 0, 0}, {0, 0, -1, 0}, {0, 1, 0, 0}, {0, 0, 0, 1});
+    return matrix;
+}
+
 Scene load(const std::filesystem::path& file, const GltfOptions& options) {
     Budget budget(options.memoryBudget_bytes);
     const Document document = readDocument(file, budget);
     const JsonView root = document.root();
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-    const Accessors accessors(document, folder, budget);
-
     Scene scene;
-    for (const JsonView& used : root.list("extensionsUsed"))
-        if (!isSupportedExtension(used.asString()))
-            scene.warnings.push_back(
-                fmt::format("{}: {} is not supported; ignored", used.pointer(), used.asString()));
-
-    const auto uvSources = loadMaterials(root, accessors, folder, budget, scene);
-    GltfMotion::Parts parts{.file = file};
+    checkExtensions(root, scene);
+    const Accessors accessors(document, folder, budget);
+    const auto uvSources = loadMaterials(root, accessors, folder, options.glass, budget, scene);
+    GltfMotion::Parts parts{.file = file, .worldFromFile = worldFromFile(options)};
     parts.meshes = loadMeshes(root, accessors, uvSources, budget, scene);
     parts.hierarchy = loadHierarchy(root, accessors, parts.meshes, options.scene, budget, scene);
-    parts.clip =
-        loadAnimations(root, accessors, parts.hierarchy, parts.meshes, options.animation, budget, scene);
+    parts.channels =
+        loadAnimations(root, accessors, parts.hierarchy, parts.meshes, options.animations, budget, scene);
     parts.lights = loadLights(root, parts.hierarchy,
                               loadIesLights(root, parts.hierarchy, accessors, folder, budget, scene), scene);
     parts.cameras = loadCameras(root, parts.hierarchy);
     if (scene.name.empty()) scene.name = file.stem().string();
     scene.motion = std::make_shared<GltfMotion>(std::move(parts), budget, scene);
+    nameGlass(scene);
     return scene;
 }
 

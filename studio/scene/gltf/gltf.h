@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "studio/scene/scene.h"
 
@@ -12,14 +13,18 @@ namespace penumbra::studio {
 
 struct GltfOptions {
     std::optional<int> scene;  ///< which of the file's scenes; the file's own default where unset
-    int animation = 0;         ///< which clip plays, looping over its duration; -1: the rest pose
+    /// Which animations play together, looping over the longest; none: the rest pose. Unset: all but those
+    /// that would move what an earlier one moves.
+    std::optional<std::vector<int>> animations;
+    Glass glass = Glass::clear;
+    double unit_m = 1;  ///< the length that the file's coordinates count
+    UpAxis up = UpAxis::y;
     std::uint64_t memoryBudget_bytes = 4ull << 30;  ///< for everything that loading allocates
 };
 
-/// Loads meshes, materials, skins, morph targets, one animation, cameras and lights.
+/// Loads meshes, materials, skins, morph targets, animations, cameras and lights.
 ///
-/// Extensions: KHR_mesh_quantization, KHR_texture_transform, KHR_materials_unlit, KHR_lights_punctual and the
-/// draft EXT_lights_area, which replaces KHR_lights_punctual where a file has both. `extras.penumbra` is read
+/// Extensions, and what becomes of those that are not read: docs/manual/files.md. `extras.penumbra` is read
 /// on nodes
 /// (`casts`, `receives`: booleans) and on punctual lights or their nodes, the node first (`radius`: metres of
 /// a point or spot light; `angle`: degrees of a directional one); without it these lights have size zero.

@@ -37,6 +37,14 @@ class GltfHostile : public ::testing::Test {
             << "instead of '" << place << "': '" << message << "'";
     }
 
+    // The scene loads, with one warning about this place.
+    void expectLeftOut(const std::string& place) {
+        const Scene scene = loadGltf(folder_.write("hostile.gltf", gltf_.text()));
+        ASSERT_EQ(scene.warnings.size(), 1u);
+        EXPECT_NE(scene.warnings[0].find(place + ": left out"), std::string::npos) << scene.warnings[0];
+        EXPECT_TRUE(scene.pictures.empty() && scene.textures.empty());
+    }
+
     TemporaryFolder folder_;
     TestGltf gltf_;
 };
@@ -140,6 +148,27 @@ TEST_F(GltfHostile, ABillionInstances) {
         gltf_.json["scenes"][0]["nodes"].push_back(i);
     }
     EXPECT_NE(refusalOf(gltf_.text()).find("more vertices are drawn"), std::string::npos);
+}
+
+TEST_F(GltfHostile, TwoBillionCopies) {
+    gltf_.addTriangle();
+    const TestGltf good = gltf_;
+    nlohmann::json& copies = gltf_.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"];
+    copies = {{"attributes",
+               {{"TRANSLATION",
+                 gltf_.addAccessor({{"componentType", 5126}, {"count", 1ull << 31}, {"type", "VEC3"}})}}}};
+    expectRefused("/nodes/0/extensions/EXT_mesh_gpu_instancing: needs more memory");
+    gltf_.json["accessors"].back()["count"] = 1 << 23;
+    EXPECT_NE(refusal(folder_.write("hostile.gltf", gltf_.text()), {.memoryBudget_bytes = 256 << 20})
+                  .find("memory"),
+              std::string::npos);
+    copies["attributes"]["SCALE"] = 0;
+    expectRefused("/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/TRANSLATION: has another count");
+    copies["attributes"] = Json::object();
+    expectRefused("/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes: has no attributes");
+    copies["attributes"]["ROTATION"] = gltf_.add<float>("VEC4", {0, 0, 0, 0});
+    expectRefused(
+        "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/ROTATION: element 0 is no rotation");
 }
 
 TEST_F(GltfHostile, Numbers) {
@@ -247,13 +276,17 @@ TEST_F(GltfHostile, Pictures) {
     primitive["material"] = 0;
     gltf_.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
     gltf_.json["textures"] = {{{"source", 0}}};
-    for (const char* uri : {"../../etc/passwd", "/etc/passwd", "missing.png", "hostile.gltf"}) {
+    for (const char* uri :
+         {"../../etc/passwd", "/etc/passwd", "file:///etc/passwd", "missing.png", "hostile.gltf"}) {
         gltf_.json["images"] = {{{"uri", uri}}};
-        expectRefused("/images/0");
+        expectLeftOut("/images/0");
     }
     gltf_.json["images"] = {
         {{"uri", "data:image/png;base64," + base64(encodedPng(1, 1, 8, 0, {0}).substr(0, 40))}}};
-    expectRefused("/images/0: picture 'image 0' is damaged");
+    expectLeftOut("/images/0");
+    // 2^30 pixels in a file of some hundred bytes.
+    gltf_.json["images"] = {{{"uri", "data:image/png;base64," + base64(pngThatClaims(1 << 15, 1 << 15))}}};
+    expectRefused("/images/0: picture 'image 0' is 32768 x 32768 pixels");
     gltf_.json["images"] = {{{"uri", "x.png"}, {"bufferView", 0}}};
     expectRefused("/images/0");
     gltf_.json["textures"][0]["source"] = 1;
@@ -288,8 +321,10 @@ TEST_F(GltfHostile, WhatIsNotAGltfFile) {
     for (const char* content :
          {"", "{}", "[]", "null", "\xff\xfe", R"({"asset":{"version":"1.0"}})", "{\"asset\":1}"})
         EXPECT_NE(refusalOf(content), "") << content;
-    gltf_.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    gltf_.json["extensionsRequired"] = {"ACME_secret_shapes"};
     expectRefused("/extensionsRequired/0");
+    gltf_.json["extensionsRequired"] = {"KHR_meshopt_compression"};
+    EXPECT_NE(refusalOf(gltf_.text()).find("gltfpack -c"), std::string::npos);
 }
 
 // A number of the text becomes another one. Values follow a colon, a bracket or a comma; digits of base64 do

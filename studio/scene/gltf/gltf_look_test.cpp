@@ -47,9 +47,46 @@ TEST_F(GltfLook, ReadsMaterialsAndBakesTheTextureTransform) {
     expectNear(glm::vec3(uvs.at(0), 0), {0, 1, 0});
     expectNear(glm::vec3(uvs.at(1), 0), {0, 0.5, 0});
     expectNear(glm::vec3(uvs.at(2), 0), {0.5, 1, 0});
-    gltf_.json["materials"][0]["alphaMode"] = "BLEND";
-    EXPECT_EQ(load().materials.at(0).alpha, Material::Alpha::opaque);
-    EXPECT_EQ(load().warnings.size(), 1u);
+}
+
+TEST_F(GltfLook, LetsLightThroughGlass) {
+    gltf_.addTriangle()["material"] = 0;
+    Json& material = gltf_.json["materials"][0];
+    const auto casts = [&](Glass glass) { return load({.glass = glass}).at(0).instances.at(0).casts; };
+    material = {{"alphaMode", "BLEND"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 1, 1, 0.4}}}}};
+    EXPECT_FALSE(casts(Glass::clear));
+    EXPECT_TRUE(casts(Glass::blocks));
+    const Scene scene = load();
+    expectNear(scene.materials.at(0).glass.value(), {0.8, 1, 1});
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(scene.warnings[0],
+              "/materials: 1 pane of glass (alpha below 0.5, or transmission above 0.5) lets light through; "
+              "--glass blocks makes them cast");
+    gltf_.json["nodes"][0]["extras"]["penumbra"]["casts"] = true;
+    EXPECT_TRUE(casts(Glass::clear)) << "the node's own word";
+    gltf_.json["nodes"][0].erase("extras");
+    material["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 1, 1, 0.6};
+    EXPECT_TRUE(casts(Glass::clear));
+    for (const double transmission : {0.4, 0.6}) {
+        material = {{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", transmission}}}}}};
+        EXPECT_EQ(casts(Glass::clear), transmission < 0.5);
+    }
+}
+
+TEST_F(GltfLook, TakesATexturesBlendForAMask) {
+    gltf_.addTriangle()["material"] = 0;
+    gltf_.json["textures"] = {{{"source", 0}}};
+    Json& material = gltf_.json["materials"][0];
+    material["alphaMode"] = "BLEND";
+    material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 0;
+    for (const int alpha : {60, 200}) {
+        gltf_.json["images"] = {
+            {{"uri", "data:image/png;base64," + base64(encodedPng(2, 1, 8, PNG_COLOR_TYPE_GRAY_ALPHA,
+                                                                  {0, 255, 0, std::uint8_t(alpha)}))}}};
+        const Scene scene = load();
+        EXPECT_EQ(scene.materials.at(0).alpha == Material::Alpha::mask, alpha < 128);
+        EXPECT_FALSE(scene.materials.at(0).glass);
+    }
 }
 
 TEST_F(GltfLook, GivesPunctualLightsTheirSize) {
@@ -96,7 +133,7 @@ TEST_F(GltfLook, GivesPunctualLightsTheirSize) {
     EXPECT_FLOAT_EQ(lights[2].emission.value.x, 3 / (pi * 0.25f));
 }
 
-TEST_F(GltfLook, PrefersAreaLights) {
+TEST_F(GltfLook, ReadsAreaLightsBesideOthers) {
     gltf_.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
     gltf_.json["extensions"]["EXT_lights_area"]["lights"] = {{{"type", "rect"},
                                                               {"size", 2},
@@ -105,19 +142,82 @@ TEST_F(GltfLook, PrefersAreaLights) {
                                                               {"color", {1, 1, 0}}},
                                                              {{"type", "disk"}, {"size", 3}}};
     gltf_.json["nodes"] = {{{"extensions", {{"EXT_lights_area", {{"light", 0}}}}}},
-                           {{"extensions", {{"EXT_lights_area", {{"light", 1}}}}}},
+                           {{"extensions", {{"EXT_lights_area", {{"light", 1}}}}}, {"scale", {1, 2, -0.5}}},
                            {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}};
     gltf_.json["scenes"][0]["nodes"] = {0, 1, 2};
     const Scene scene = load();
     const std::vector<Light> lights = scene.at(0).lights;
-    ASSERT_EQ(lights.size(), 2u);
+    ASSERT_EQ(lights.size(), 3u);
     EXPECT_EQ(lights[0].shape.shape, LightShape::rect);
     EXPECT_FLOAT_EQ(lights[0].shape.width_m, 3);
     EXPECT_FLOAT_EQ(lights[0].shape.height_m, 2);
     expectNear(lights[0].emission.value, {800, 800, 0});
     EXPECT_EQ(lights[1].shape.shape, LightShape::disk);
-    EXPECT_FLOAT_EQ(lights[1].shape.radius_m, 1.5f);
-    EXPECT_EQ(scene.warnings.size(), 1u);
+    EXPECT_FLOAT_EQ(lights[1].shape.radius_m, 3) << "twice, by the largest scale of its node";
+    EXPECT_FLOAT_EQ(lights[1].emission.value.x, 1000) << "the draft's default";
+    EXPECT_EQ(lights[2].shape.shape, LightShape::sphere);
+    EXPECT_TRUE(scene.warnings.empty());
+
+    gltf_.json["asset"]["generator"] = "Babylon.js v8.56.2";
+    const Scene babylon = load();
+    EXPECT_FLOAT_EQ(babylon.at(0).lights[1].emission.value.x, 1);
+    ASSERT_EQ(babylon.warnings.size(), 1u);
+    EXPECT_NE(babylon.warnings[0].find("leaves out an intensity of 1"), std::string::npos);
+}
+
+TEST_F(GltfLook, ReadsSpotsWithAHardEdge) {
+    gltf_.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}};
+    gltf_.json["nodes"] = {{{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}};
+    Json& spot = gltf_.json["extensions"]["KHR_lights_punctual"]["lights"][0]["spot"];
+    // The last as a writer rounds it.
+    for (const double angle : {0.5, 1.0471975511965976, 1.5707963267948966, 1.57085}) {
+        spot = {{"innerConeAngle", angle}, {"outerConeAngle", angle}};
+        const std::array<float, 2> cone_rad = load().at(0).lights.at(0).cone_rad.value();
+        EXPECT_EQ(cone_rad[0], cone_rad[1]);
+        EXPECT_NEAR(cone_rad[0], std::min(angle, double(pi / 2)), 1e-6);
+    }
+    spot = {{"innerConeAngle", 0.6}, {"outerConeAngle", 0.5}};
+    EXPECT_TRUE(load().at(0).lights.empty());
+}
+
+TEST_F(GltfLook, LeavesOutABadLightAndNamesIt) {
+    gltf_.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"name", "dark"}, {"intensity", -5}}, {{"type", "point"}, {"range", 3}}};
+    for (int i = 0; i < 2; ++i)
+        gltf_.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+    gltf_.json["scenes"][0]["nodes"] = {0, 1};
+    const Scene scene = load();
+    EXPECT_EQ(scene.at(0).lights.size(), 1u);
+    ASSERT_EQ(scene.warnings.size(), 2u);
+    EXPECT_NE(scene.warnings[0].find("/nodes/0: light 'dark' is left out"), std::string::npos);
+    EXPECT_NE(scene.warnings[1].find("1 of them have a range"), std::string::npos);
+}
+
+TEST_F(GltfLook, TellsLightsOfOneNameApart) {
+    gltf_.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"name", "Lamp"}},
+                                                                 {{"type", "point"}, {"name", "Lamp 2"}}};
+    for (const char* name : {"Lamp", "Lamp.001", "Lamp", "other"})
+        gltf_.json["nodes"].push_back(
+            {{"name", name}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    gltf_.json["nodes"][3]["extensions"]["KHR_lights_punctual"]["light"] = 1;
+    gltf_.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
+    std::vector<std::string> names;
+    for (const Light& light : load().at(0).lights) names.push_back(light.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"Lamp", "Lamp.001", "Lamp 3", "Lamp 2"}));
+}
+
+TEST_F(GltfLook, HidesNodesWithAllBelowThem) {
+    gltf_.addTriangle();
+    gltf_.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    gltf_.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
+    gltf_.json["nodes"] = {{{"mesh", 0}, {"children", {1, 2}}},
+                           {{"mesh", 0}, {"camera", 0}},
+                           {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}};
+    EXPECT_EQ(load().at(0).instances.size(), 2u);
+    gltf_.json["nodes"][0]["extensions"]["KHR_node_visibility"]["visible"] = false;
+    const SceneMoment moment = load().at(0);
+    EXPECT_TRUE(moment.instances.empty() && moment.lights.empty());
+    EXPECT_EQ(moment.cameras.size(), 1u) << "a camera sees from where nobody sees it";
 }
 
 TEST_F(GltfLook, ReadsLuminaires) {

@@ -33,6 +33,7 @@ TEST_F(GltfMotionTest, InterpolatesStepLinearAndCubic) {
     animate("translation", keys, "LINEAR");
     EXPECT_FLOAT_EQ(x(0.75), 3);
     EXPECT_FLOAT_EQ(x(1.5), 5);
+    EXPECT_FLOAT_EQ(x(2), 6);     // the last key
     EXPECT_FLOAT_EQ(x(2.25), 1);  // looped
     EXPECT_FLOAT_EQ(x(-0.5), 5);  // backwards
     // Keys are in-tangent, value, out-tangent. Half-way through two seconds the Hermite weights are 0.5,
@@ -57,6 +58,47 @@ TEST_F(GltfMotionTest, InterpolatesRotationsOnTheSphere) {
     EXPECT_NEAR(std::atan2(world[0].y, world[0].x), pi / 6, 1e-5);
 }
 
+TEST_F(GltfMotionTest, TheLastFrameShowsTheLastKey) {
+    gltf_.addTriangle();
+    const int keys = gltf_.add<float>("VEC3", {0, 0, 0, 9, 0, 0});
+    for (const int frames : {24, 25, 31, 100}) {
+        animate("translation", keys, "LINEAR", {0, float(frames) / 24});
+        const auto x = [&](double frame) { return load().at(frame / 24).worldFromNode[0][3].x; };
+        EXPECT_FLOAT_EQ(x(frames), 9) << frames;
+        EXPECT_FLOAT_EQ(x(2 * frames), 9) << frames;
+        EXPECT_FLOAT_EQ(x(0), 0) << frames;
+        EXPECT_LT(x(frames + 1), 1) << frames;
+    }
+}
+
+TEST_F(GltfMotionTest, AnimationsOfDifferentThingsPlayTogether) {
+    gltf_.addTriangle();
+    gltf_.json["nodes"].push_back({{"name", "lamp"}});
+    gltf_.json["scenes"][0]["nodes"] = {0, 1};
+    animate("translation", gltf_.add<float>("VEC3", {0, 0, 0, 4, 0, 0}), "LINEAR", {0, 1});
+    gltf_.json["animations"].push_back(gltf_.json["animations"][0]);  // the same, another way
+    gltf_.json["animations"].push_back(gltf_.json["animations"][0]);
+    Json& ofTheLamp = gltf_.json["animations"][2];
+    ofTheLamp["name"] = "LampAction";
+    ofTheLamp["channels"][0]["target"]["node"] = 1;
+    ofTheLamp["samplers"][0] = {{"input", gltf_.add<float>("SCALAR", {0, 2})},
+                                {"output", gltf_.add<float>("VEC3", {0, 0, 0, 0, 8, 0})}};
+    const Scene scene = load();
+    EXPECT_DOUBLE_EQ(scene.duration_s(), 2);
+    const SceneMoment moment = scene.at(1.5);
+    EXPECT_FLOAT_EQ(moment.worldFromNode[0][3].x, 4);  // at its end, while the longer one goes on
+    EXPECT_FLOAT_EQ(moment.worldFromNode[1][3].y, 6);
+    EXPECT_TRUE(scene.animations[0].plays && !scene.animations[1].plays && scene.animations[2].plays);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(
+        scene.warnings[0],
+        "/animations: 'clip' would move what an earlier one moves and stands still; --animation chooses");
+    const Scene chosen = load({.animations = std::vector{1, 2}});
+    EXPECT_TRUE(!chosen.animations[0].plays && chosen.animations[1].plays && chosen.warnings.empty());
+    EXPECT_FLOAT_EQ(chosen.at(0.5).worldFromNode[0][3].x, 2);
+    EXPECT_FLOAT_EQ(chosen.at(0.5).worldFromNode[1][3].y, 2);
+}
+
 TEST_F(GltfMotionTest, PlaysTheChosenAnimationOrNone) {
     gltf_.addTriangle();
     animate("translation", gltf_.add<float>("VEC3", {1, 0, 0, 1, 0, 0, 1, 0, 0}), "LINEAR");
@@ -64,9 +106,9 @@ TEST_F(GltfMotionTest, PlaysTheChosenAnimationOrNone) {
     gltf_.json["animations"][1]["samplers"][0]["output"] =
         gltf_.add<float>("VEC3", {2, 0, 0, 2, 0, 0, 2, 0, 0});
     EXPECT_EQ(load().at(0).worldFromNode[0][3].x, 1);
-    EXPECT_EQ(load({.animation = 1}).at(0).worldFromNode[0][3].x, 2);
-    EXPECT_EQ(load({.animation = -1}).at(0).worldFromNode[0][3].x, 0);
-    EXPECT_THROW(load({.animation = 2}), InputError);
+    EXPECT_EQ(load({.animations = std::vector{1}}).at(0).worldFromNode[0][3].x, 2);
+    EXPECT_EQ(load({.animations = std::vector<int>{}}).at(0).worldFromNode[0][3].x, 0);
+    EXPECT_THROW(load({.animations = std::vector{2}}), InputError);
 }
 
 TEST_F(GltfMotionTest, MorphsAtATime) {
@@ -131,6 +173,26 @@ TEST_F(GltfMotionTest, KeepsTheFourLargestInfluencesAndNormalisesThem) {
     EXPECT_NEAR(ofJoint[4], .3 / .9, 1e-6);
     EXPECT_NEAR(ofJoint[3], .2 / .9, 1e-6);
     EXPECT_EQ(ofJoint[1], 0);
+}
+
+TEST_F(GltfMotionTest, CopiesAMeshOverItsInstances) {
+    gltf_.addTriangle();
+    const int half = 1 << 14;  // of a turn, near enough: normalised
+    gltf_.json["nodes"][0]["translation"] = {0, 0, 5};
+    gltf_.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+        {"TRANSLATION", gltf_.add<float>("VEC3", {0, 0, 0, 10, 0, 0})},
+        {"ROTATION", gltf_.add<std::int16_t>("VEC4", {0, 0, 0, 32767, 0, 0, half, half}, true)},
+        {"SCALE", gltf_.add<float>("VEC3", {1, 1, 1, 2, 2, -2})},
+        {"_ID", gltf_.add<float>("SCALAR", {7, 8})}};
+    const Scene scene = load();
+    EXPECT_EQ(scene.meshes.size(), 1u);
+    const SceneMoment moment = scene.at(0);
+    ASSERT_EQ(moment.instances.size(), 2u);
+    expectNear(moment.instances[0].worldFromMesh * glm::vec4(1, 0, 0, 1), {1, 0, 5});
+    expectNear(moment.instances[1].worldFromMesh * glm::vec4(1, 0, 0, 1), {10, 2, 5});
+    expectNear(moment.instances[1].worldFromMesh * glm::vec4(0, 0, 1, 1), {10, 0, 3});
+    expectNear(moment.bounds.max, {10, 2, 5});
+    expectNear(moment.bounds.min, {0, 0, 5});
 }
 
 }  // namespace

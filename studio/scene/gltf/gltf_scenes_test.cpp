@@ -28,7 +28,9 @@ void expectConsistent(const Scene& scene, const SceneMoment& moment) {
         ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
         ASSERT_EQ(instance.positions.size(), mesh.deforms() ? mesh.positions.size() : 0);
         ASSERT_EQ(instance.normals.size(), instance.positions.size());
-        const bool isTextured = scene.materials[std::size_t(mesh.material)].baseColorTexture >= 0;
+        const Material& material = scene.materials[std::size_t(mesh.material)];
+        const bool isTextured = material.baseColorTexture >= 0 || material.emissionTexture >= 0;
+        ASSERT_EQ(mesh.colors.size(), mesh.colors.empty() ? 0 : mesh.positions.size());
         ASSERT_EQ(mesh.uvs.size(), isTextured ? mesh.positions.size() : 0);
         for (const glm::vec3& normal : mesh.normals) ASSERT_NEAR(glm::length(normal), 1, 1e-4);
         for (const glm::vec3& normal : instance.normals) ASSERT_NEAR(glm::length(normal), 1, 1e-4);
@@ -81,7 +83,7 @@ TEST_F(GltfScenes, AreAsMeasured) {
              {"conformance/own/quantized_i16_unnormalized.gltf", 12, {-.5, -.5, -.5}, {.5, .5, .5}},
              {"conformance/SimpleSparseAccessor/SimpleSparseAccessor.gltf", 12, {0, 0, 0}, {6, 4, 0}}}) {
         SCOPED_TRACE(expected.file);
-        const Scene scene = loadGltf(*scenes_ / expected.file, {.animation = -1});
+        const Scene scene = loadGltf(*scenes_ / expected.file, {.animations = std::vector<int>{}});
         const SceneMoment moment = scene.at(0);
         std::size_t triangles = 0;
         for (const Instance& instance : moment.instances)

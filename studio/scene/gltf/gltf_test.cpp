@@ -150,12 +150,12 @@ TEST_F(GltfGeometry, ReadsQuantizedAttributes) {
 TEST_F(GltfGeometry, ComposesNodesAndKeepsWindingWhereTheyMirror) {
     gltf_.addTriangle();
     gltf_.json["nodes"] = {
-        {{"name", "root"}, {"translation", {10, 0, 0}}, {"children", {1}}},
+        {{"name", "root"}, {"translation", {3, 0, 0}}, {"children", {1}}},
         {{"mesh", 0}, {"scale", {-2, 1, 1}}, {"rotation", {0, 0, std::sqrt(0.5), std::sqrt(0.5)}}}};
     const Scene scene = load();
     const SceneMoment moment = scene.at(0);
     // (1, 0, 0) -> scaled (-2, 0, 0) -> turned 90 degrees (0, -2, 0) -> moved.
-    expectNear(transformed(moment.instances.at(0).worldFromMesh, {1, 0, 0}), {10, -2, 0});
+    expectNear(transformed(moment.instances.at(0).worldFromMesh, {1, 0, 0}), {3, -2, 0});
     EXPECT_LT(glm::determinant(moment.instances[0].worldFromMesh), 0);
     EXPECT_EQ(scene.meshes[0].indices, (std::vector<std::uint32_t>{0, 1, 2}));
     EXPECT_EQ(scene.nodeNames, (std::vector<std::string>{"root", "node 1"}));
@@ -164,8 +164,8 @@ TEST_F(GltfGeometry, ComposesNodesAndKeepsWindingWhereTheyMirror) {
 
 TEST_F(GltfGeometry, ReadsNodeMatricesColumnByColumn) {
     gltf_.addTriangle();
-    gltf_.json["nodes"][0]["matrix"] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1};
-    expectNear(transformed(load().at(0).instances.at(0).worldFromMesh, {1, 0, 0}), {5, 7, 7});
+    gltf_.json["nodes"][0]["matrix"] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1};
+    expectNear(transformed(load().at(0).instances.at(0).worldFromMesh, {1, 0, 0}), {1, 3, 3});
 }
 
 TEST_F(GltfGeometry, ChoosesTheScene) {

@@ -53,7 +53,7 @@ std::vector<PlacedLight> loadIesLights(const JsonView& root, const Hierarchy& hi
         const auto json = nodes[i].extension("EXT_lights_ies");
         if (!json || !json->has("light")) continue;
         const int index = json->at("light").asIndex(profiles.size());
-        if (!hierarchy.nodes[i].inScene) continue;
+        if (!hierarchy.nodes[i].inScene || !hierarchy.nodes[i].visible) continue;
         auto& profile = loaded[index];
         if (!profile) {
             profile = loadProfile(profiles[std::size_t(index)], accessors, folder, budget);

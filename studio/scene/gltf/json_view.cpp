@@ -121,6 +121,11 @@ std::vector<float> JsonView::asNumbers(std::size_t count) const {
     return numbers;
 }
 
+std::vector<double> JsonView::asDoubles(std::size_t count) const {
+    asNumbers(count);
+    return value_->get<std::vector<double>>();
+}
+
 std::optional<int> JsonView::index(const std::string& key, std::size_t size) const {
     const auto member = find(key);
     return member ? std::optional(member->asIndex(size)) : std::nullopt;
@@ -167,6 +172,13 @@ glm::vec3 JsonView::vec3(const std::string& key, glm::vec3 fallback) const {
     const auto member = find(key);
     if (!member) return fallback;
     const std::vector<float> v = member->asNumbers(3);
+    return {v[0], v[1], v[2]};
+}
+
+glm::dvec3 JsonView::dvec3(const std::string& key, glm::dvec3 fallback) const {
+    const auto member = find(key);
+    if (!member) return fallback;
+    const std::vector<double> v = member->asDoubles(3);
     return {v[0], v[1], v[2]};
 }
 

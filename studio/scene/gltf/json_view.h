@@ -19,6 +19,11 @@ struct PlaceError : std::runtime_error {
                const std::string& remedy = "re-export the file, or check it with gltf-validator");
 };
 
+/// A file that is named but is not there, or lies where nothing is read from.
+struct MissingFile : PlaceError {
+    using PlaceError::PlaceError;
+};
+
 /// Borrows a value of a parsed document. Every accessor throws PlaceError where the value is not what is
 /// asked for.
 class JsonView {
@@ -51,6 +56,8 @@ class JsonView {
     const std::string& asString() const;
     /// An array of exactly `count` numbers.
     std::vector<float> asNumbers(std::size_t count) const;
+    /// The same with all of their digits: places far from the origin need them. Finite, also as floats.
+    std::vector<double> asDoubles(std::size_t count) const;
 
     // Members that may be absent.
     std::optional<int> index(const std::string& key, std::size_t size) const;
@@ -62,6 +69,7 @@ class JsonView {
     std::string string(const std::string& key, const std::string& fallback = "") const;
     glm::vec2 vec2(const std::string& key, glm::vec2 fallback) const;
     glm::vec3 vec3(const std::string& key, glm::vec3 fallback) const;
+    glm::dvec3 dvec3(const std::string& key, glm::dvec3 fallback) const;
 
   private:
     const nlohmann::json* value_;

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "studio/scene/gltf/unit_vector.h"
 #include "studio/scene/lights/light_units.h"
@@ -57,12 +59,14 @@ Light loadPunctual(const JsonView& json, const JsonView& node) {
     } else if (type == "spot") {
         light.shape.shape = LightShape::disk;
         loadPoint(json, extrasNumber(node, json, "radius", maxNumber), light);
+        // Writers round pi / 2 up, and write equal angles for a hard edge: three.js by default, Blender for a
+        // blend of 0.
+        constexpr float rounding = 1.0001f;
         const JsonView spot = json.at("spot");
-        const float inner = spot.numberWithin("innerConeAngle", 0, 0, pi / 2);
-        // Writers round pi / 2 up.
-        const float outer = spot.numberWithin("outerConeAngle", pi / 4, 0, pi / 2 * 1.0001f);
-        if (inner >= outer) spot.fail("innerConeAngle must be smaller than outerConeAngle");
-        light.cone_rad = {inner, std::min(outer, pi / 2)};
+        const float outer = spot.numberWithin("outerConeAngle", pi / 4, 0, pi / 2 * rounding);
+        const float inner = spot.numberWithin("innerConeAngle", 0, 0, pi / 2 * rounding);
+        if (inner > outer * rounding) spot.fail("innerConeAngle is larger than outerConeAngle");
+        light.cone_rad = {std::min({inner, outer, pi / 2}), std::min(outer, pi / 2)};
     } else if (type == "directional") {
         light.shape.shape = LightShape::distant;
         light.shape.angle_rad = glm::radians(extrasNumber(node, json, "angle", 180));
@@ -78,7 +82,8 @@ Light loadPunctual(const JsonView& json, const JsonView& node) {
 }
 
 // `size` is the height of a rect, `rect.aspect` its width over its height; a disk's `size` is its diameter.
-Light loadArea(const JsonView& json) {
+// `intensity` is the surface's luminance.
+Light loadArea(const JsonView& json, float defaultIntensity_nits) {
     Light light{.name = json.string("name")};
     const float size_m = json.numberWithin("size", 1, 0, maxNumber);
     const std::string type = json.at("type").asString();
@@ -95,24 +100,73 @@ Light loadArea(const JsonView& json) {
     } else {
         json.at("type").fail(fmt::format("'{}' is not rect or disk", type));
     }
-    light.emission = emission(json, Emission::Unit::nits, json.numberWithin("intensity", 1, 0, maxNumber));
+    light.emission = emission(json, Emission::Unit::nits,
+                              json.numberWithin("intensity", defaultIntensity_nits, 0, maxNumber));
     return light;
 }
 
-// Calls place(node index, node JSON, light JSON) for each node of the scene that carries a light of
-// `extension`.
-template <class Place>
-void forEachLight(const JsonView& root, const Hierarchy& hierarchy, const std::string& extension,
-                  Place place) {
+/// Reads the lights of one extension: load(light JSON, node JSON) makes a light of one node.
+template <class Load>
+void loadEach(const JsonView& root, const Hierarchy& hierarchy, const std::string& extension, LightSize size,
+              Load load, std::vector<PlacedLight>& placed, Scene& scene) {
     const auto atRoot = root.extension(extension);
     const std::vector<JsonView> lights = atRoot ? atRoot->list("lights") : std::vector<JsonView>{};
     const std::vector<JsonView> nodes = root.list("nodes");
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const auto reference = nodes[i].extension(extension);
         if (!reference || !reference->has("light")) continue;
-        const int light = reference->at("light").asIndex(lights.size());
-        if (hierarchy.nodes[i].inScene) place(int(i), nodes[i], lights[std::size_t(light)]);
+        const JsonView& json = lights[std::size_t(reference->at("light").asIndex(lights.size()))];
+        const Node& node = hierarchy.nodes[i];
+        if (!node.inScene || !node.visible) continue;
+        try {
+            Light light = load(json, nodes[i]);
+            if (light.name.empty()) light.name = node.name;
+            placed.push_back({int(i), std::move(light), size});
+        } catch (const PlaceError& error) {
+            // Blender writes a lamp of negative power so, and the rest of the file is as good as any.
+            scene.warnings.push_back(fmt::format("{}: light '{}' is left out: {}", nodes[i].pointer(),
+                                                 json.string("name", node.name), error.what()));
+        }
     }
+}
+
+// Babylon.js takes the draft's default intensity for 1, and leaves it out where a light's is.
+float defaultAreaIntensity_nits(const JsonView& root, Scene& scene) {
+    constexpr float ofTheDraft = 1000, ofBabylon = 1;
+    const std::string generator = root.at("asset").string("generator");
+    if (!generator.starts_with("Babylon.js") || !root.extension("EXT_lights_area")) return ofTheDraft;
+    scene.warnings.push_back(fmt::format(
+        "/asset/generator: {} leaves out an intensity of 1 in EXT_lights_area; it is taken for 1 nit",
+        generator));
+    return ofBabylon;
+}
+
+// Linked duplicates share their light's name: their nodes' names tell them apart, or else a number.
+void tellApart(std::vector<PlacedLight>& lights, const Hierarchy& hierarchy) {
+    std::map<std::string, int> uses;
+    for (const PlacedLight& placed : lights) ++uses[placed.light.name];
+    std::set<std::string> taken;
+    for (const auto& [name, count] : uses)
+        if (count == 1) taken.insert(name);
+    for (PlacedLight& placed : lights) {
+        if (uses[placed.light.name] == 1) continue;
+        std::string name = hierarchy.nodes[std::size_t(placed.node)].name;
+        for (int number = 2; !taken.insert(name).second; ++number)
+            name = fmt::format("{} {}", placed.light.name, number);
+        placed.light.name = std::move(name);
+    }
+}
+
+void nameRanges(const JsonView& root, Scene& scene) {
+    const auto atRoot = root.extension("KHR_lights_punctual");
+    if (!atRoot) return;
+    const std::vector<JsonView> lights = atRoot->list("lights");
+    const auto count =
+        std::ranges::count_if(lights, [](const JsonView& light) { return light.has("range"); });
+    if (count > 0)
+        scene.warnings.push_back(
+            fmt::format("{}/lights: {} of them have a range; it is left out, as light goes on for ever",
+                        atRoot->pointer(), count));
 }
 
 Camera loadCamera(const JsonView& json) {
@@ -138,25 +192,15 @@ Camera loadCamera(const JsonView& json) {
 
 std::vector<PlacedLight> loadLights(const JsonView& root, const Hierarchy& hierarchy,
                                     std::vector<PlacedLight> luminaires, Scene& scene) {
-    std::vector<PlacedLight> areas = std::move(luminaires), punctuals;
-    const auto place = [&](std::vector<PlacedLight>& lights, int node, Light light) {
-        if (light.name.empty()) light.name = hierarchy.nodes[std::size_t(node)].name;
-        lights.push_back({node, std::move(light)});
-    };
-    forEachLight(root, hierarchy, "EXT_lights_area", [&](int node, const JsonView&, const JsonView& json) {
-        place(areas, node, loadArea(json));
-    });
-    forEachLight(root, hierarchy, "KHR_lights_punctual",
-                 [&](int node, const JsonView& nodeJson, const JsonView& json) {
-                     place(punctuals, node, loadPunctual(json, nodeJson));
-                 });
-    if (areas.empty()) return punctuals;
-    if (!punctuals.empty())
-        scene.warnings.push_back(
-            fmt::format("/extensions/KHR_lights_punctual: {} lights are ignored, as the file has "
-                        "EXT_lights_area or EXT_lights_ies",
-                        punctuals.size()));
-    return areas;
+    std::vector<PlacedLight> lights = std::move(luminaires);
+    const float intensity_nits = defaultAreaIntensity_nits(root, scene);
+    loadEach(
+        root, hierarchy, "EXT_lights_area", LightSize::scalesWithNode,
+        [&](const JsonView& json, const JsonView&) { return loadArea(json, intensity_nits); }, lights, scene);
+    loadEach(root, hierarchy, "KHR_lights_punctual", LightSize::itsOwn, loadPunctual, lights, scene);
+    tellApart(lights, hierarchy);
+    nameRanges(root, scene);
+    return lights;
 }
 
 std::vector<PlacedCamera> loadCameras(const JsonView& root, const Hierarchy& hierarchy) {
@@ -182,8 +226,19 @@ glm::mat4 rigidPart(const glm::mat4& affine) {
     return {glm::vec4(x, 0), glm::vec4(glm::cross(z, x), 0), glm::vec4(z, 0), affine[3]};
 }
 
+float largestScale(const glm::mat4& affine) {
+    return std::max({glm::length(glm::vec3(affine[0])), glm::length(glm::vec3(affine[1])),
+                     glm::length(glm::vec3(affine[2]))});
+}
+
 Light lightAt(const PlacedLight& placed, const glm::mat4& worldFromNode) {
     Light light = placed.light;
+    if (placed.size == LightSize::scalesWithNode) {
+        const float scale = largestScale(worldFromNode);
+        light.shape.width_m *= scale;
+        light.shape.height_m *= scale;
+        light.shape.radius_m *= scale;
+    }
     place(light, rigidPart(worldFromNode));
     return light;
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 
-#include "studio/errors.h"
 #include "studio/scene/gltf/picture_decode.h"
 
 namespace penumbra::studio::gltf {
@@ -63,6 +62,7 @@ class TextureLoader {
         for (const JsonView& json : textures_) {
             json.index("sampler", samplers_.size());
             json.index("source", images_.size());
+            if (const auto webp = json.extension("EXT_texture_webp")) webp->index("source", images_.size());
         }
         for (const JsonView& json : images_)
             if (json.has("uri") == (json.index("bufferView", accessors_.viewCount()).has_value()))
@@ -76,20 +76,25 @@ class TextureLoader {
         const JsonView& json = textures_[std::size_t(index)];
         const auto [known, isNew] = sceneTextures_.try_emplace(index, -1);
         if (!isNew) return known->second;
-        const auto source = json.index("source", images_.size());
-        if (!source) {
-            scene_.warnings.push_back(
-                fmt::format("{}: has no picture in PNG or JPEG; left out", json.pointer()));
-            return -1;
-        }
+        const auto webp = json.extension("EXT_texture_webp");
+        auto source = webp ? webp->index("source", images_.size()) : std::nullopt;
+        if (!source) source = json.index("source", images_.size());
+        if (!source) return leaveOut(json, "it has no picture in a format that is read here");
         const auto sampler = json.index("sampler", samplers_.size());
         Texture texture = sampler ? samplers_[std::size_t(*sampler)] : Texture();
         texture.picture = loadPicture(*source);
+        if (texture.picture < 0) return -1;
         scene_.textures.push_back(texture);
         return known->second = int(scene_.textures.size()) - 1;
     }
 
   private:
+    int leaveOut(const JsonView& json, const std::string& why) {
+        scene_.warnings.push_back(fmt::format(
+            "{}: left out, surfaces that show it are plain and have no holes: {}", json.pointer(), why));
+        return -1;
+    }
+
     int loadPicture(int index) {
         const auto [known, isNew] = scenePictures_.try_emplace(index, -1);
         if (!isNew) return known->second;
@@ -105,6 +110,10 @@ class TextureLoader {
             const PictureSize size = readPictureSize(bytes, name);
             budget_.charge(std::uint64_t(size.width_px) * std::uint64_t(size.height_px), 4, json.pointer());
             scene_.pictures.push_back(decodePicture(bytes, name));
+        } catch (const UnreadablePicture& error) {
+            return leaveOut(json, error.what());
+        } catch (const MissingFile& error) {
+            return leaveOut(json, error.what());
         } catch (const InputError& error) {
             json.fail(error.what());
         }
@@ -120,26 +129,85 @@ class TextureLoader {
     std::map<int, int> sceneTextures_, scenePictures_;  // index in the file -> index in the scene
 };
 
-Material::Alpha loadAlpha(const JsonView& json, std::vector<std::string>& warnings) {
+enum class AlphaMode { opaque, mask, blend };
+
+AlphaMode loadAlphaMode(const JsonView& json) {
     const std::string mode = json.string("alphaMode", "OPAQUE");
-    if (mode == "MASK") return Material::Alpha::mask;
-    if (mode == "BLEND")
-        warnings.push_back(fmt::format("{}/alphaMode: BLEND is drawn as OPAQUE", json.pointer()));
-    else if (mode != "OPAQUE")
-        json.at("alphaMode").fail(fmt::format("'{}' is not OPAQUE, MASK or BLEND", mode));
-    return Material::Alpha::opaque;
+    if (mode == "OPAQUE") return AlphaMode::opaque;
+    if (mode == "MASK") return AlphaMode::mask;
+    if (mode == "BLEND") return AlphaMode::blend;
+    json.at("alphaMode").fail(fmt::format("'{}' is not OPAQUE, MASK or BLEND", mode));
+}
+
+// What half covers a surface blocks light, what covers less lets it through; a texture decides place by
+// place.
+constexpr float leastOfASolid = 0.5f;
+
+bool hasHoles(const Picture& picture, float factor) {
+    for (std::size_t i = 3; i < picture.rgba.size(); i += 4)
+        if (factor * float(picture.rgba[i]) / 255 < leastOfASolid) return true;
+    return false;
+}
+
+// A material of which one can see through all or parts becomes glass, or a mask.
+void makeGlass(const JsonView& json, AlphaMode mode, const Scene& scene, Material& material) {
+    const auto transmission = json.extension("KHR_materials_transmission");
+    if (transmission && transmission->numberWithin("transmissionFactor", 0, 0, 1) > leastOfASolid) {
+        material.glass = glm::vec3(material.baseColor);
+    } else if (mode == AlphaMode::blend && material.baseColor.a < leastOfASolid) {
+        material.glass = glm::mix(glm::vec3(1), glm::vec3(material.baseColor), material.baseColor.a);
+    } else if (mode == AlphaMode::blend && material.baseColorTexture >= 0) {
+        const Texture& texture = scene.textures[std::size_t(material.baseColorTexture)];
+        if (!hasHoles(scene.pictures[std::size_t(texture.picture)], material.baseColor.a)) return;
+        material.alpha = Material::Alpha::mask;
+        material.alphaCutoff = leastOfASolid;
+    }
+}
+
+// Emission is in nits (KHR_materials_emissive_strength). Its texture shares the coordinates of the base
+// colour's.
+void loadEmission(const JsonView& json, TextureLoader& textures, Material& material,
+                  std::optional<UvSource>& uvSource, std::vector<std::string>& warnings) {
+    constexpr float maxStrength = 1e9f;
+    const auto strength = json.extension("KHR_materials_emissive_strength");
+    material.emission_nits = glm::clamp(json.vec3("emissiveFactor", glm::vec3(0)), 0.0f, 1.0f) *
+                             (strength ? strength->numberWithin("emissiveStrength", 1, 0, maxStrength) : 1);
+    const auto info = json.find("emissiveTexture");
+    if (!info) return;
+    const int index = info->at("index").asIndex(textures.size());
+    if (material.emission_nits == glm::vec3(0)) return;
+    const UvSource own = loadUvSource(*info);
+    if (uvSource.value_or(own) != own) {
+        warnings.push_back(
+            info->pointer() +
+            ": has other texture coordinates than the base colour's; left out, all of it glows");
+        return;
+    }
+    material.emissionTexture = textures.load(index);
+    if (material.emissionTexture >= 0) uvSource = own;
+}
+
+void nameGlowing(const Scene& scene, std::vector<std::string>& warnings) {
+    const auto count = std::ranges::count_if(
+        scene.materials, [](const Material& material) { return material.emission_nits != glm::vec3(0); });
+    if (count > 0)
+        warnings.push_back(
+            fmt::format("/materials: {} of them glow; they are seen so, but light nothing: "
+                        "lights are made in SCENE.lights.json",
+                        count));
 }
 
 }  // namespace
 
 std::vector<std::optional<UvSource>> loadMaterials(const JsonView& root, const Accessors& accessors,
-                                                   const std::filesystem::path& folder, Budget& budget,
-                                                   Scene& scene) {
+                                                   const std::filesystem::path& folder, Glass glass,
+                                                   Budget& budget, Scene& scene) {
     TextureLoader textures(root, accessors, folder, budget, scene);
     std::vector<std::optional<UvSource>> uvSources;
     for (const JsonView& json : root.list("materials")) {
+        const AlphaMode mode = loadAlphaMode(json);
         Material material{.name = json.string("name"),
-                          .alpha = loadAlpha(json, scene.warnings),
+                          .alpha = mode == AlphaMode::mask ? Material::Alpha::mask : Material::Alpha::opaque,
                           .alphaCutoff = json.numberWithin("alphaCutoff", 0.5f, 0, 1e6f),
                           .doubleSided = json.boolean("doubleSided", false),
                           .unlit = json.extension("KHR_materials_unlit").has_value()};
@@ -156,10 +224,13 @@ std::vector<std::optional<UvSource>> loadMaterials(const JsonView& root, const A
             if (const auto info = pbr->find("metallicRoughnessTexture"))
                 info->at("index").asIndex(textures.size());
         }
-        for (const char* key : {"normalTexture", "occlusionTexture", "emissiveTexture"})
+        if (glass == Glass::clear) makeGlass(json, mode, scene, material);
+        loadEmission(json, textures, material, uvSource, scene.warnings);
+        for (const char* key : {"normalTexture", "occlusionTexture"})
             if (const auto info = json.find(key)) info->at("index").asIndex(textures.size());
         scene.materials.push_back(std::move(material));
     }
+    nameGlowing(scene, scene.warnings);
     scene.materials.push_back({.name = "default"});
     uvSources.emplace_back();
     return uvSources;

@@ -12,13 +12,14 @@ namespace penumbra::studio::gltf {
 struct UvSource {
     int texCoord = 0;
     glm::mat3 transform{1};  ///< KHR_texture_transform, on (u, v, 1)
+    bool operator==(const UvSource&) const = default;
 };
 
 /// Fills scene.pictures, textures and materials, the last material being glTF's default one. Only pictures
-/// that a base colour uses are decoded. Returns one UvSource a material; without a value: the material has no
-/// texture.
+/// that base colours and emission use are decoded. Returns one UvSource a material; without a value: the
+/// material has no texture.
 std::vector<std::optional<UvSource>> loadMaterials(const JsonView& root, const Accessors& accessors,
-                                                   const std::filesystem::path& folder, Budget& budget,
-                                                   Scene& scene);
+                                                   const std::filesystem::path& folder, Glass glass,
+                                                   Budget& budget, Scene& scene);
 
 }  // namespace penumbra::studio::gltf

@@ -8,7 +8,10 @@
 #include <limits>
 #include <numeric>
 
+#include "studio/scene/gltf/draco_mesh.h"
 #include "studio/scene/gltf/unit_vector.h"
+#include "studio/scene/gltf/vertex_colors.h"
+#include "studio/scene/weld.h"
 
 namespace penumbra::studio::gltf {
 
@@ -47,12 +50,16 @@ void unshare(std::vector<T>& values, const std::vector<std::uint32_t>& indices) 
 
 class PrimitiveLoader {
   public:
-    PrimitiveLoader(const JsonView& json, const Accessors& accessors, Budget& budget, Scene& scene)
+    PrimitiveLoader(const JsonView& json, const Accessors& accessors, VertexColors& vertexColors,
+                    Budget& budget, Scene& scene)
         : json_(json),
           accessors_(accessors),
           attributes_(json.at("attributes")),
+          vertexColors_(vertexColors),
           budget_(budget),
           scene_(scene) {
+        if (const auto compressed = json.extension("KHR_draco_mesh_compression"))
+            draco_.emplace(json, *compressed, accessors, budget);
         for (const std::string& name : attributes_.keys()) {
             const Accessor& accessor = accessors_[attributes_.at(name).asIndex(accessors_.size())];
             if (vertexCount_ == 0) vertexCount_ = accessor.count;
@@ -81,6 +88,7 @@ class PrimitiveLoader {
         mesh.positions = readVec3s(*positions, budget_);
         loadNormals(mesh);
         if (const auto& uvSource = uvSources[std::size_t(mesh.material)]) loadUvs(mesh, *uvSource);
+        loadColors(mesh);
         loadInfluences(mesh);
         for (const JsonView& target : json_.list("targets")) mesh.morphTargets.push_back(loadTarget(target));
         if (mesh.normals.empty()) shadeFlat(mesh);
@@ -99,14 +107,16 @@ class PrimitiveLoader {
 
     const Accessor* attribute(const std::string& name) const {
         const auto index = attributes_.index(name, accessors_.size());
-        return index ? &accessors_[*index] : nullptr;
+        const Accessor* decoded = draco_ ? draco_->attribute(name) : nullptr;
+        return decoded ? decoded : index ? &accessors_[*index] : nullptr;
     }
 
     std::vector<std::uint32_t> loadIndices() {
         if (vertexCount_ > std::numeric_limits<std::uint32_t>::max())
             attributes_.fail("has too many vertices");
-        if (const auto index = json_.index("indices", accessors_.size())) {
-            const Accessor& accessor = accessors_[*index];
+        const auto index = json_.index("indices", accessors_.size());
+        if (index || draco_) {
+            const Accessor& accessor = draco_ ? draco_->indices() : accessors_[*index];
             requireFormat(accessor, json_.pointer() + "/indices", "SCALAR", {u8, u16, u32});
             std::vector<std::uint32_t> indices = readUnsigned(accessor, budget_);
             for (std::size_t i = 0; i < indices.size(); ++i)
@@ -145,6 +155,22 @@ class PrimitiveLoader {
         for (const glm::vec2& uv : mesh.uvs)
             if (glm::any(glm::isnan(uv)) || glm::any(glm::isinf(uv)))
                 json_.fail("its texture coordinates are too large to transform");
+    }
+
+    void loadColors(Mesh& mesh) {
+        const Accessor* accessor = attribute("COLOR_0");
+        if (!accessor) return;
+        if (accessor->type != "VEC3") requireFormat(*accessor, json_.pointer(), "VEC4", {f32, u8, u16});
+        if (accessor->type != "VEC4") requireFormat(*accessor, json_.pointer(), "VEC3", {f32, u8, u16});
+        const std::vector<float> values = readFloats(*accessor, budget_);
+        budget_.charge(vertexCount_, sizeof(glm::vec4) + sizeof(glm::vec3) + sizeof(glm::vec2),
+                       json_.pointer());
+        std::vector<glm::vec4> colors(vertexCount_, glm::vec4(1));
+        for (std::size_t vertex = 0; vertex < vertexCount_; ++vertex)
+            for (std::size_t i = 0; i < accessor->components; ++i)
+                colors[vertex][int(i)] = std::clamp(values[vertex * accessor->components + i], 0.0f, 1.0f);
+        if (!vertexColors_.apply(colors, mesh))
+            warn("the alpha of its COLOR_0 varies beside a texture's, which alone makes its holes");
     }
 
     // The four largest influences of each vertex, over all sets of four.
@@ -211,11 +237,12 @@ class PrimitiveLoader {
     // Flat normals differ at the same vertex from triangle to triangle, so that none may be shared.
     void shadeFlat(Mesh& mesh) {
         std::size_t vertex_bytes =
-            2 * sizeof(glm::vec3) + sizeof(glm::vec2) + sizeof(glm::u16vec4) + sizeof(glm::vec4);
+            3 * sizeof(glm::vec3) + sizeof(glm::vec2) + sizeof(glm::u16vec4) + sizeof(glm::vec4);
         vertex_bytes += mesh.morphTargets.size() * sizeof(glm::vec3);
         budget_.charge(mesh.indices.size(), vertex_bytes, json_.pointer());
         unshare(mesh.positions, mesh.indices);
         unshare(mesh.uvs, mesh.indices);
+        unshare(mesh.colors, mesh.indices);
         unshare(mesh.joints, mesh.indices);
         unshare(mesh.jointWeights, mesh.indices);
         for (MorphTarget& target : mesh.morphTargets) {
@@ -229,8 +256,10 @@ class PrimitiveLoader {
     const JsonView& json_;
     const Accessors& accessors_;
     JsonView attributes_;
+    VertexColors& vertexColors_;
     Budget& budget_;
     Scene& scene_;
+    std::optional<DracoMesh> draco_;  ///< has the data of indices and attributes that are compressed
     std::uint64_t vertexCount_ = 0;
 };
 
@@ -248,10 +277,60 @@ std::vector<glm::vec3> flatNormals(const std::vector<glm::vec3>& positions) {
     return normals;
 }
 
+namespace {
+
+// Positions much farther from their origin than from each other (a city in coordinates of its country) lose
+// digits in all that is done with them: they are kept relative to their middle.
+void bringToItsMiddle(MeshGroup& group, const JsonView& json, Scene& scene) {
+    Bounds bounds;
+    for (const MeshGroup::Part& part : group.parts)
+        for (const glm::vec3& position : scene.meshes[std::size_t(part.mesh)].positions)
+            bounds.include(position);
+    if (bounds.empty() || !isFar(glm::dvec3(bounds.min), glm::dvec3(bounds.max))) return;
+    const glm::dvec3 middle = glm::dvec3(glm::vec3(0.5 * (glm::dvec3(bounds.min) + glm::dvec3(bounds.max))));
+    for (const MeshGroup::Part& part : group.parts)
+        for (glm::vec3& position : scene.meshes[std::size_t(part.mesh)].positions)
+            position = glm::vec3(glm::dvec3(position) - middle);
+    group.origin = middle;
+
+    // Floats that lie this share of the mesh's size apart show in its shape.
+    constexpr double visible = 1e-4;
+    const double size = glm::length(glm::dvec3(bounds.max) - glm::dvec3(bounds.min));
+    const double apart = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)}) *
+                         double(std::numeric_limits<float>::epsilon());
+    if (apart > visible * size)
+        scene.warnings.push_back(
+            fmt::format("{}: lies so far from its origin that its positions are only told {:.2g} apart: its "
+                        "shape and shadows are "
+                        "as coarse; export it relative to a place nearby",
+                        json.pointer(), apart));
+}
+
+// What lies this share of a thing's size apart is one place that was rounded twice.
+constexpr float oneUlpOrSo = 1e-6f;
+
+void closeSeams(const MeshGroup& group, const JsonView& json, Budget& budget, Scene& scene) {
+    std::vector<std::span<glm::vec3>> surfaces;
+    Bounds bounds;
+    for (const MeshGroup::Part& part : group.parts) {
+        Mesh& mesh = scene.meshes[std::size_t(part.mesh)];
+        if (mesh.deforms()) return;  // what is together at rest need not be so later
+        constexpr std::size_t kept_bytes = 80;
+        budget.charge(mesh.positions.size(), kept_bytes, json.pointer());
+        surfaces.push_back(mesh.positions);
+        for (const glm::vec3& position : mesh.positions) bounds.include(position);
+    }
+    const double size = glm::length(glm::dvec3(bounds.max) - glm::dvec3(bounds.min));
+    if (!bounds.empty()) weld(surfaces, float(oneUlpOrSo * size));
+}
+
+}  // namespace
+
 std::vector<MeshGroup> loadMeshes(const JsonView& root, const Accessors& accessors,
                                   const std::vector<std::optional<UvSource>>& uvSources, Budget& budget,
                                   Scene& scene) {
     std::vector<MeshGroup> groups;
+    VertexColors vertexColors(scene);
     for (const JsonView& json : root.list("meshes")) {
         MeshGroup& group = groups.emplace_back();
         const std::vector<JsonView> primitives = json.at("primitives").elements();
@@ -263,15 +342,19 @@ std::vector<MeshGroup> loadMeshes(const JsonView& root, const Accessors& accesso
         for (const JsonView& primitive : primitives) {
             if (primitive.list("targets").size() != group.targetCount)
                 primitive.fail("has another number of morph targets than the mesh's first primitive");
-            std::optional<Mesh> mesh = PrimitiveLoader(primitive, accessors, budget, scene).load(uvSources);
+            std::optional<Mesh> mesh =
+                PrimitiveLoader(primitive, accessors, vertexColors, budget, scene).load(uvSources);
             if (!mesh) continue;
             mesh->name = json.string("name", fmt::format("mesh {}", groups.size() - 1));
+            mesh->solid = int(groups.size()) - 1;
             mesh->morphWeights = weights;
             for (const glm::u16vec4& joints : mesh->joints)
                 for (int i = 0; i < 4; ++i) group.jointCount = std::max(group.jointCount, joints[i] + 1u);
             group.parts.push_back({int(scene.meshes.size()), !primitive.at("attributes").has("NORMAL")});
             scene.meshes.push_back(std::move(*mesh));
         }
+        bringToItsMiddle(group, json, scene);
+        closeSeams(group, json, budget, scene);
     }
     return groups;
 }

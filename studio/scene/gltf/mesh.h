@@ -14,6 +14,9 @@ struct MeshGroup {
         /// Has no normals in the file: they follow from its triangles as they deform
         bool flatShaded = false;
     };
+    /// Where the origin of its positions lies in the file's mesh: they are kept near it, where floats are
+    /// fine.
+    glm::dvec3 origin{0};
     std::vector<Part> parts;
     std::size_t targetCount = 0;   ///< morph targets, the same in all primitives
     std::uint32_t jointCount = 0;  ///< 1 + the largest joint that a vertex names; 0: not skinned

@@ -13,15 +13,16 @@ class GltfMotion : public Scene::Motion {
   public:
     struct Parts {
         std::filesystem::path file;
+        glm::dmat4 worldFromFile{1};  ///< unit and axes
         Hierarchy hierarchy;
         std::vector<MeshGroup> meshes;
-        Clip clip;
+        std::vector<Channel> channels;  ///< of the animations that play
         std::vector<PlacedLight> lights;
         std::vector<PlacedCamera> cameras;
     };
 
     /// Throws PlaceError where the rest pose overflows. `scene` is the scene that moves, complete but for its
-    /// motion.
+    /// motion and worldFromFile, which is set here.
     GltfMotion(Parts parts, Budget& budget, Scene& scene);
 
     /// Throws InputError where the animation overflows.
@@ -29,17 +30,21 @@ class GltfMotion : public Scene::Motion {
 
   private:
     struct Pose {
-        std::vector<glm::mat4> worldFromNode;
+        std::vector<glm::dmat4> worldFromNode;
         std::vector<std::vector<float>> weights;  ///< of each node; empty: its mesh's own
     };
     struct Placement {
         int node = 0;
+        std::size_t copy = 0;  ///< which of the node's, where it has any
         MeshGroup::Part part;
+        glm::dvec3 origin{0};  ///< MeshGroup::origin
         glm::mat4 restWorldFromMesh{1};
         Bounds restBounds;  ///< in the world; of rigid instances only
     };
 
+    void comeNear(const Scene& scene);
     Pose poseAt(double time_s) const;
+    glm::dmat4 worldFromMesh(const Placement& placement, const Pose& pose) const;
     Instance instanceAt(const Scene& scene, const Placement& placement, const Pose& pose) const;
     void deform(const Mesh& mesh, const Placement& placement, const Pose& pose, Instance& instance) const;
 

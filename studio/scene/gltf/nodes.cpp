@@ -5,41 +5,42 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace penumbra::studio::gltf {
 
 namespace {
 
 constexpr int maxDepth = 1024;
-constexpr float unitTolerance = 1e-3f;
+constexpr double unitTolerance = 1e-3f;
 
-glm::mat4 affineMatrix(const std::vector<float>& v, const std::string& place) {
-    glm::mat4 matrix;
+glm::dmat4 affineMatrix(std::span<const double> v, const std::string& place) {
+    glm::dmat4 matrix;
     for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = v[std::size_t(i)];
     for (int column = 0; column < 4; ++column)
-        if (std::abs(matrix[column][3] - (column == 3 ? 1.0f : 0.0f)) > unitTolerance)
+        if (std::abs(matrix[column][3] - (column == 3 ? 1.0 : 0.0)) > unitTolerance)
             throw PlaceError(place, "is not an affine matrix: its last row must be 0, 0, 0, 1");
     return matrix;
 }
 
-glm::quat unitRotation(const JsonView& json) {
-    const std::vector<float> v = json.asNumbers(4);  // x, y, z, w
-    const double length = std::hypot(std::hypot(double(v[0]), v[1]), std::hypot(double(v[2]), v[3]));
+glm::dquat unitRotation(const JsonView& json) {
+    const std::vector<double> v = json.asDoubles(4);  // x, y, z, w
+    const double length = std::hypot(std::hypot(v[0], v[1]), std::hypot(v[2], v[3]));
     if (!(std::abs(length - 1) <= unitTolerance)) json.fail("is not a unit quaternion");
-    return glm::normalize(glm::quat(v[3], v[0], v[1], v[2]));
+    return glm::normalize(glm::dquat(v[3], v[0], v[1], v[2]));
 }
 
 Node loadNode(const JsonView& json, std::size_t index, std::size_t skinCount,
               const std::vector<MeshGroup>& meshes) {
     Node node{.pointer = json.pointer(), .name = json.string("name", fmt::format("node {}", index))};
     if (node.name.empty()) node.name = fmt::format("node {}", index);
-    node.translation = json.vec3("translation", glm::vec3(0));
-    node.scale = json.vec3("scale", glm::vec3(1));
+    node.translation = json.dvec3("translation", glm::dvec3(0));
+    node.scale = json.dvec3("scale", glm::dvec3(1));
     if (const auto rotation = json.find("rotation")) node.rotation = unitRotation(*rotation);
     if (const auto matrix = json.find("matrix")) {
         if (json.has("translation") || json.has("rotation") || json.has("scale"))
             matrix->fail("excludes translation, rotation and scale");
-        node.matrix = affineMatrix(matrix->asNumbers(16), matrix->pointer());
+        node.matrix = affineMatrix(matrix->asDoubles(16), matrix->pointer());
     }
 
     node.mesh = json.index("mesh", meshes.size()).value_or(-1);
@@ -48,11 +49,50 @@ Node loadNode(const JsonView& json, std::size_t index, std::size_t skinCount,
         if (node.mesh < 0) weights->fail("has no mesh");
         node.weights = weights->asNumbers(meshes[std::size_t(node.mesh)].targetCount);
     }
+    if (const auto visibility = json.extension("KHR_node_visibility"))
+        node.visible = visibility->boolean("visible", true);
     if (const auto extras = json.penumbraExtras()) {
-        node.casts = extras->boolean("casts", true);
+        if (extras->has("casts")) node.casts = extras->boolean("casts", true);
         node.receives = extras->boolean("receives", true);
     }
     return node;
+}
+
+// The attributes of EXT_mesh_gpu_instancing; others, as _ID, say nothing of where the copies are.
+Copies loadCopies(const JsonView& json, const Accessors& accessors, Budget& budget) {
+    const JsonView attributes = json.at("attributes");
+    std::optional<std::size_t> count;
+    for (const std::string& name : attributes.keys()) {
+        const JsonView member = attributes.at(name);
+        const std::size_t elements = accessors[member.asIndex(accessors.size())].count;
+        if (elements != count.value_or(elements)) member.fail("has another count than other attributes");
+        count = elements;
+    }
+    if (!count) attributes.fail("has no attributes, so that the number of copies is not known");
+    // What is placed and drawn of each weighs far more than its numbers: refused before these are read.
+    budget.charge(*count, sizeof(glm::mat4) + sizeof(Instance), json.pointer());
+
+    const auto read = [&](const char* name, const char* type, std::initializer_list<ComponentType> types) {
+        const auto index = attributes.index(name, accessors.size());
+        if (!index) return std::vector<float>();
+        requireFormat(accessors[*index], attributes.pointer() + '/' + name, type, types);
+        return readFloats(accessors[*index], budget);
+    };
+    using enum ComponentType;
+    const std::vector<float> t = read("TRANSLATION", "VEC3", {f32}), s = read("SCALE", "VEC3", {f32}),
+                             r = read("ROTATION", "VEC4", {f32, i8, i16});
+    Copies copies(*count);
+    for (std::size_t i = 0; i < copies.size(); ++i) {
+        glm::quat rotation(1, 0, 0, 0);
+        if (!r.empty()) rotation = glm::quat(r[4 * i + 3], r[4 * i], r[4 * i + 1], r[4 * i + 2]);
+        // Rounded to 8 bits, they are far from unit length.
+        if (!(glm::dot(rotation, rotation) > 0 && std::isfinite(glm::dot(rotation, rotation))))
+            throw PlaceError(attributes.pointer() + "/ROTATION", fmt::format("element {} is no rotation", i));
+        copies[i] = composed(t.empty() ? glm::vec3(0) : glm::vec3(t[3 * i], t[3 * i + 1], t[3 * i + 2]),
+                             glm::normalize(rotation),
+                             s.empty() ? glm::vec3(1) : glm::vec3(s[3 * i], s[3 * i + 1], s[3 * i + 2]));
+    }
+    return copies;
 }
 
 std::vector<std::vector<int>> linkChildren(const std::vector<JsonView>& jsons, std::vector<Node>& nodes) {
@@ -136,9 +176,10 @@ Skin loadSkin(const JsonView& json, std::size_t nodeCount, const Accessors& acce
         if (accessor.count < skin.joints.size()) json.fail("has fewer inverse bind matrices than joints");
         const std::vector<float> values = readFloats(accessor, budget);
         for (std::size_t i = 0; i < skin.joints.size(); ++i)
-            skin.jointFromMesh[i] = affineMatrix(
-                {values.begin() + std::ptrdiff_t(16 * i), values.begin() + std::ptrdiff_t(16 * i + 16)},
-                fmt::format("{}: element {}", accessor.pointer, i));
+            skin.jointFromMesh[i] =
+                affineMatrix(std::vector<double>(values.begin() + std::ptrdiff_t(16 * i),
+                                                 values.begin() + std::ptrdiff_t(16 * i + 16)),
+                             fmt::format("{}: element {}", accessor.pointer, i));
     }
     return skin;
 }
@@ -161,6 +202,12 @@ void checkSkins(Hierarchy& hierarchy, const std::vector<MeshGroup>& meshes, Scen
 
 }  // namespace
 
+glm::dmat4 composed(const glm::dvec3& translation, const glm::dquat& rotation, const glm::dvec3& scale) {
+    const glm::dmat3 r = glm::mat3_cast(rotation);
+    return {glm::dvec4(r[0] * scale.x, 0), glm::dvec4(r[1] * scale.y, 0), glm::dvec4(r[2] * scale.z, 0),
+            glm::dvec4(translation, 1)};
+}
+
 Hierarchy loadHierarchy(const JsonView& root, const Accessors& accessors,
                         const std::vector<MeshGroup>& meshes, std::optional<int> wanted, Budget& budget,
                         Scene& scene) {
@@ -170,9 +217,19 @@ Hierarchy loadHierarchy(const JsonView& root, const Accessors& accessors,
         hierarchy.nodes.push_back(loadNode(json, hierarchy.nodes.size(), skinJsons.size(), meshes));
     hierarchy.order = parentsFirst(hierarchy.nodes, linkChildren(jsons, hierarchy.nodes));
     markScene(root, wanted, hierarchy, scene);
+    for (const int i : hierarchy.order)
+        if (Node& node = hierarchy.nodes[std::size_t(i)]; node.parent >= 0)
+            node.visible = node.visible && hierarchy.nodes[std::size_t(node.parent)].visible;
     for (const JsonView& json : skinJsons)
         hierarchy.skins.push_back(loadSkin(json, jsons.size(), accessors, budget));
     checkSkins(hierarchy, meshes, scene);
+    for (std::size_t i = 0; i < jsons.size(); ++i)
+        if (const auto json = jsons[i].extension("EXT_mesh_gpu_instancing")) {
+            if (hierarchy.nodes[i].mesh < 0) continue;
+            if (hierarchy.nodes[i].skin >= 0)
+                json->fail("its mesh has a skin, which alone says where it is: there are no copies of it");
+            hierarchy.nodes[i].copies = loadCopies(*json, accessors, budget);
+        }
     for (const Node& node : hierarchy.nodes) scene.nodeNames.push_back(node.name);
     return hierarchy;
 }

@@ -8,23 +8,31 @@
 
 namespace penumbra::studio::gltf {
 
+/// EXT_mesh_gpu_instancing: where the copies of a node's mesh stand, in the node's space.
+using Copies = std::vector<glm::dmat4>;
+
 struct Node {
     std::string pointer, name;
-    glm::vec3 translation{0};
-    glm::quat rotation{1, 0, 0, 0};
-    glm::vec3 scale{1};
-    std::optional<glm::mat4> matrix;  ///< instead of the three above
+    glm::dvec3 translation{0};
+    glm::dquat rotation{1, 0, 0, 0};
+    glm::dvec3 scale{1};
+    std::optional<glm::dmat4> matrix;  ///< instead of the three above
     int parent = -1;
     bool inScene = false;  ///< belongs to the scene that is loaded
     int mesh = -1, skin = -1;
-    std::vector<float> weights;  ///< of morph targets; empty: the mesh's own
-    bool casts = true, receives = true;
+    std::optional<Copies> copies;  ///< of the mesh, instead of the one at the node's own place
+    std::vector<float> weights;    ///< of morph targets; empty: the mesh's own
+    std::optional<bool> casts;     ///< unset: unless it is glass
+    bool receives = true;
+    bool visible = true;  ///< KHR_node_visibility: with its mesh and its light, and all below it
 };
 
 struct Skin {
     std::vector<int> joints;  ///< nodes
     std::vector<glm::mat4> jointFromMesh;
 };
+
+glm::dmat4 composed(const glm::dvec3& translation, const glm::dquat& rotation, const glm::dvec3& scale);
 
 /// The node hierarchy: a forest.
 struct Hierarchy {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Both libraries report errors by longjmp, which must not skip a destructor: the functions that call setjmp
-// have trivial locals only, and what they fill belongs to their callers.
+// libpng and libjpeg report errors by longjmp, which must not skip a destructor: the functions that call
+// setjmp have trivial locals only, and what they fill belongs to their callers.
 #include "studio/scene/gltf/picture_decode.h"
 
 #include <fmt/format.h>
 #include <png.h>
+#include <webp/decode.h>
 
 #include <algorithm>
 #include <array>
@@ -37,18 +38,26 @@ struct Message {
     std::array<char, JMSG_LENGTH_MAX> text{};
 };
 
+std::string refusal(const std::string& name, const std::string& problem) {
+    return fmt::format("picture '{}' {}; save it again as PNG, JPEG or WebP", name, problem);
+}
+
 [[noreturn]] void refuse(const std::string& name, const std::string& problem) {
-    throw InputError(fmt::format("picture '{}' {}; save it again as PNG or JPEG", name, problem));
+    throw UnreadablePicture(refusal(name, problem));
+}
+
+[[noreturn]] void refuseAsTooLarge(const std::string& name, const std::string& problem) {
+    throw InputError(refusal(name, problem));
 }
 
 void checkSize(std::uint64_t width, std::uint64_t height, std::size_t file_bytes, const std::string& name) {
     if (width == 0 || height == 0) refuse(name, "has no pixels");
     if (width > maxSide_px || height > maxSide_px || width * height > maxPixels)
-        refuse(name, fmt::format("is {} x {} pixels; at most {} a side and {} in all can be read", width,
-                                 height, maxSide_px, maxPixels));
+        refuseAsTooLarge(name, fmt::format("is {} x {} pixels; at most {} a side and {} in all can be read",
+                                           width, height, maxSide_px, maxPixels));
     const std::uint64_t decoded_bytes = width * height * 4;
     if (decoded_bytes > harmless_bytes && decoded_bytes / maxExpansion > file_bytes)
-        refuse(name, fmt::format("would grow from {} to {} bytes", file_bytes, decoded_bytes));
+        refuseAsTooLarge(name, fmt::format("would grow from {} to {} bytes", file_bytes, decoded_bytes));
 }
 
 // PNG
@@ -199,7 +208,49 @@ class JpegReader {
     JpegErrors errors_{};
 };
 
-// Both
+// WebP
+// --------------------------------------------------------------------------------------------------------------
+
+bool isWebp(std::span<const std::byte> bytes) {
+    return bytes.size() >= 12 && std::memcmp(bytes.data(), "RIFF", 4) == 0 &&
+           std::memcmp(bytes.data() + 8, "WEBP", 4) == 0;
+}
+
+class WebpReader {
+  public:
+    explicit WebpReader(std::span<const std::byte> bytes)
+        : data_(reinterpret_cast<const std::uint8_t*>(bytes.data())), size_bytes_(bytes.size()) {}
+
+    const char* message() const { return message_; }
+
+    bool readHeader(std::uint32_t& width, std::uint32_t& height) {
+        WebPBitstreamFeatures features{};
+        if (WebPGetFeatures(data_, size_bytes_, &features) != VP8_STATUS_OK) return false;
+        if (features.has_animation) {
+            message_ = "it moves";
+            return false;
+        }
+        width = std::uint32_t(features.width);
+        height = std::uint32_t(features.height);
+        return true;
+    }
+
+    // Into rows that lie one after the other.
+    bool readPixels(std::uint8_t** rows) {
+        std::uint32_t width = 0, height = 0;
+        if (!readHeader(width, height)) return false;
+        const int row_bytes = int(width) * 4;
+        return WebPDecodeRGBAInto(data_, size_bytes_, rows[0], std::size_t(row_bytes) * height, row_bytes) !=
+               nullptr;
+    }
+
+  private:
+    const std::uint8_t* data_;
+    std::size_t size_bytes_;
+    const char* message_ = "its data cannot be decoded";
+};
+
+// All
 // --------------------------------------------------------------------------------------------------------------
 
 template <class Reader>
@@ -234,13 +285,18 @@ PictureSize readPictureSize(std::span<const std::byte> bytes, const std::string&
         JpegReader reader(bytes);
         return readSize(reader, bytes.size(), nameForMessages);
     }
-    refuse(nameForMessages, "is neither PNG nor JPEG");
+    if (isWebp(bytes)) {
+        WebpReader reader(bytes);
+        return readSize(reader, bytes.size(), nameForMessages);
+    }
+    refuse(nameForMessages, "is neither PNG nor JPEG nor WebP");
 }
 
 Picture decodePicture(std::span<const std::byte> bytes, const std::string& nameForMessages) {
     if (isPng(bytes)) return decode(PngReader(bytes), bytes.size(), nameForMessages);
     if (isJpeg(bytes)) return decode(JpegReader(bytes), bytes.size(), nameForMessages);
-    refuse(nameForMessages, "is neither PNG nor JPEG");
+    if (isWebp(bytes)) return decode(WebpReader(bytes), bytes.size(), nameForMessages);
+    refuse(nameForMessages, "is neither PNG nor JPEG nor WebP");
 }
 
 }  // namespace penumbra::studio

@@ -42,6 +42,23 @@ inline std::string encodedPng(int width, int height, int bitDepth, int colorType
     return out;
 }
 
+/// A grey PNG of one pixel whose header claims another size, with the checksum that libpng would miss first.
+inline std::string pngThatClaims(std::uint32_t width, std::uint32_t height) {
+    std::string bytes = encodedPng(1, 1, 8, PNG_COLOR_TYPE_GRAY, {0});
+    for (int i = 0; i < 4; ++i) {
+        bytes[std::size_t(16 + i)] = char(width >> (24 - 8 * i));
+        bytes[std::size_t(20 + i)] = char(height >> (24 - 8 * i));
+    }
+    std::uint32_t crc = 0xffffffff;
+    for (std::size_t i = 12; i < 29; ++i) {
+        crc ^= std::uint8_t(bytes[i]);
+        for (int k = 0; k < 8; ++k) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0u);
+    }
+    crc = ~crc;
+    for (int i = 0; i < 4; ++i) bytes[std::size_t(29 + i)] = char(crc >> (24 - 8 * i));
+    return bytes;
+}
+
 /// One colour all over: three components RGB, one grey, four CMYK.
 inline std::string encodedJpeg(int width, int height, std::vector<std::uint8_t> color) {
     jpeg_compress_struct jpeg{};

@@ -29,8 +29,9 @@ struct SidecarProfile {
 struct SidecarLight {
     Light light;  ///< all but what depends on the scene and on other files: its transform, the texture's
                   ///< index, the profile, and the shape of a luminaire
-    glm::mat4 parentFromLight{1};  ///< rigid
-    std::string node;              ///< the parent, by name; empty: the world
+    glm::dmat4 parentFromLight{1};  ///< rigid
+    std::string node;               ///< the parent, by name; empty: the coordinates of the scene's file
+    bool isInWorld = false;         ///< has Y up whatever the scene's file has: the sun
     std::optional<SidecarProfile> profile;
     std::string textureFile;  ///< relative to the file's folder, or empty
     int nodeLine = 0, textureLine = 0;

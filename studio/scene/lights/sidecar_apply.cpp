@@ -138,8 +138,9 @@ class NodeIndex {
 
 struct AttachedLight {
     Light light;
-    glm::mat4 parentFromLight{1};
+    glm::dmat4 parentFromLight{1};
     std::optional<int> node;
+    bool isInWorld = false;
 };
 
 struct NodeFlags {
@@ -162,10 +163,16 @@ class SidecarMotion : public Scene::Motion {
         if (lights_) {
             moment.lights.clear();
             for (const AttachedLight& attached : *lights_) {
-                const glm::mat4 worldFromParent =
-                    attached.node ? moment.worldFromNode[*attached.node] : glm::mat4(1);
+                const glm::dmat4 worldFromParent =
+                    attached.node        ? glm::dmat4(moment.worldFromNode[*attached.node])
+                    : attached.isInWorld ? glm::dmat4(1)
+                                         : scene.worldFromFile;
                 Light light = attached.light;
-                place(light, gltf::rigidPart(worldFromParent * attached.parentFromLight));
+                glm::mat4 worldFromLight =
+                    gltf::rigidPart(glm::mat4(worldFromParent * attached.parentFromLight));
+                // A distant light is nowhere, least of all where the file's origin lies.
+                if (light.shape.shape == LightShape::distant) worldFromLight[3] = {0, 0, 0, 1};
+                place(light, worldFromLight);
                 moment.lights.push_back(std::move(light));
             }
         }
@@ -197,7 +204,7 @@ void applySidecar(Scene& scene, const Sidecar& sidecar, const fs::path& folder) 
         TextureLoader textures(scene, folder);
         ProfileLoader profiles(scene, folder);
         for (const SidecarLight& read : *sidecar.lights) {
-            AttachedLight attached{read.light, read.parentFromLight, {}};
+            AttachedLight attached{read.light, read.parentFromLight, {}, read.isInWorld};
             if (read.profile)
                 profiles.load(*read.profile, fmt::format("{}:{}", sidecar.fileName, read.profile->line),
                               attached.light);

@@ -84,6 +84,12 @@ glm::mat4 readRotation(const SidecarReader& reader, const LocatedJson& value) {
     return glm::mat4_cast(glm::normalize(glm::quat(xyzw.w, xyzw.x, xyzw.y, xyzw.z)));
 }
 
+/// Metres, with all of their digits: scenes may lie far from the origin.
+glm::dvec3 readTranslation(const SidecarReader& reader, const LocatedJson& value) {
+    reader.vector<3>(value, "'translation'");
+    return {value.items[0].number, value.items[1].number, value.items[2].number};
+}
+
 /// The area by which UsdLux's `normalize` divides; of a distant light it is pi sin^2(angle/2), which turns
 /// illuminance into luminance.
 float sizeFactor(const AreaLight& shape) {
@@ -198,6 +204,7 @@ void readSun(const SidecarReader& reader, const LocatedJson& object, SidecarLigh
     const Light sun = sunLight(read.light.name, place, setting, reader.place(time.line));
     read.light.shape = sun.shape;
     read.parentFromLight = std::bit_cast<glm::mat4>(sun.shape.worldFromLight);
+    read.isInWorld = true;
     read.light.emission = sun.emission;
     read.light.emission.value *=
         readStrength(reader, object, reader.number(object, "multiplier", 1, atLeastZero));
@@ -229,7 +236,7 @@ void readPlace(const SidecarReader& reader, const LocatedJson& object, SidecarLi
     if (const LocatedJson* value = member(object, "rotation"))
         read.parentFromLight = readRotation(reader, *value);
     if (const LocatedJson* value = member(object, "translation"))
-        read.parentFromLight[3] = glm::vec4(reader.vector<3>(*value, "'translation'"), 1);
+        read.parentFromLight[3] = glm::dvec4(readTranslation(reader, *value), 1);
     if (const LocatedJson* value = member(object, "node")) {
         read.node = reader.text(*value, "'node'");
         read.nodeLine = value->line;

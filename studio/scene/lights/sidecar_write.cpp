@@ -18,6 +18,11 @@ Json number(float value) {
     return Json::parse(fmt::format("{}", value));
 }
 
+/// The same for a double that is no float.
+Json number(double value) {
+    return double(float(value)) == value ? number(float(value)) : Json(value);
+}
+
 template <int count>
 Json list(const glm::vec<count, float>& values) {
     Json json = Json::array();
@@ -53,7 +58,7 @@ void writeEmission(Json& json, const char* key, const glm::vec3& value) {
         }
     }
     const bool exact = color * largest == value;
-    json[key] = exact ? number(largest) : number(1);
+    json[key] = exact ? number(largest) : number(1.0f);
     json["color"] = list(exact ? color : value);
 }
 
@@ -102,7 +107,7 @@ Json write(const SidecarLight& written) {
         json["shaping:cone:softness"] = number(outer_rad > 0 ? 1 - inner_rad / outer_rad : 0);
     }
     if (!written.node.empty()) json["node"] = written.node;
-    json["translation"] = list(glm::vec3(written.parentFromLight[3]));
+    for (int i = 0; i < 3; ++i) json["translation"].push_back(number(written.parentFromLight[3][i]));
     const glm::quat rotation = glm::normalize(glm::quat_cast(glm::mat3(written.parentFromLight)));
     json["rotation"] = list(glm::vec4(rotation.x, rotation.y, rotation.z, rotation.w));
     return json;
