@@ -234,9 +234,10 @@ TEST_F(GltfLook, ReadsLuminaires) {
     gltf_.json["scenes"][0]["nodes"] = {0, 1, 2};
     const Scene scene = load();
     const std::vector<Light> lights = scene.at(0).lights;
-    ASSERT_EQ(lights.size(), 2u);
-    EXPECT_EQ(scene.warnings.size(), 1u);  // the point light is ignored
+    ASSERT_EQ(lights.size(), 3u);
+    EXPECT_TRUE(scene.warnings.empty());
     EXPECT_EQ(lights[0].name, "panel");
+    EXPECT_EQ(lights[1].name, "panel 2");
     EXPECT_EQ(lights[0].shape.shape, LightShape::rect);
     EXPECT_FLOAT_EQ(lights[0].shape.width_m, 0.6f);
     EXPECT_FLOAT_EQ(lights[0].shape.height_m, 0.3f);

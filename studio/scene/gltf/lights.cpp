@@ -151,6 +151,7 @@ void tellApart(std::vector<PlacedLight>& lights, const Hierarchy& hierarchy) {
     for (PlacedLight& placed : lights) {
         if (uses[placed.light.name] == 1) continue;
         std::string name = hierarchy.nodes[std::size_t(placed.node)].name;
+        if (name == fmt::format("node {}", placed.node)) name = placed.light.name;  // it has none of its own
         for (int number = 2; !taken.insert(name).second; ++number)
             name = fmt::format("{} {}", placed.light.name, number);
         placed.light.name = std::move(name);
