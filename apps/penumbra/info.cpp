@@ -137,9 +137,9 @@ void info(const InfoArguments& arguments) {
         return printProfile(arguments.scene.scene, arguments.candela, arguments.json);
     }
     if (!arguments.candela.empty() || (arguments.json && !arguments.nodes))
-        throw UsageError(
-            fmt::format("--json and --candela are for luminaires (.ies, .ldt), the sun and --nodes, not for '{}'",
-                        arguments.scene.scene));
+        throw UsageError(fmt::format(
+            "--json and --candela are for luminaires (.ies, .ldt), the sun and --nodes, not for '{}'",
+            arguments.scene.scene));
     if (!arguments.nodes) return printInfo(arguments.scene);
     const Scene scene = openScene(arguments.scene.scene, arguments.scene.openOptions());
     printNodes(scene, scene.at(0), arguments.nodes->empty() ? "*" : *arguments.nodes, arguments.json);

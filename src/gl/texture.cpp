@@ -108,8 +108,8 @@ void Texture::copyTo(Texture& target) const {
     record_.makeVisible(GL_TEXTURE_UPDATE_BARRIER_BIT);
     target.record_.makeVisible(GL_TEXTURE_UPDATE_BARRIER_BIT);
     const GLenum kind = spec_.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
-    glCopyImageSubData(name(), kind, 0, 0, 0, 0, target.name(), kind, 0, 0, 0, 0, spec_.width_px, spec_.height_px,
-                       std::max(1, spec_.layers));
+    glCopyImageSubData(name(), kind, 0, 0, 0, 0, target.name(), kind, 0, 0, 0, 0, spec_.width_px,
+                       spec_.height_px, std::max(1, spec_.layers));
 }
 
 void Texture::write(std::span<const std::byte> texels, int layer) {

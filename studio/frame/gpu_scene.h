@@ -67,8 +67,8 @@ class GpuScene {
     std::map<int, gl::Texture> radianceTextures_;  ///< by index into Scene::textures
     std::map<const LightProfile*, ProfileOnDevice> profiles_;
     gl::Buffer noProfile_;
-    std::vector<MeshOnDevice> shared_;     ///< one a mesh of the scene
-    std::vector<MeshOnDevice> deforming_;  ///< one an instance that deforms, in their order
+    std::vector<MeshOnDevice> shared_;                   ///< one a mesh of the scene
+    std::vector<MeshOnDevice> deforming_;                ///< one an instance that deforms, in their order
     std::map<std::vector<int>, penumbra::Mesh> solids_;  ///< of several meshes each, as casters
     std::vector<Drawable> drawables_;
     std::vector<Caster> casters_;

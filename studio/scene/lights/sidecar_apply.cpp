@@ -163,10 +163,10 @@ class SidecarMotion : public Scene::Motion {
         if (lights_) {
             moment.lights.clear();
             for (const AttachedLight& attached : *lights_) {
-                const glm::dmat4 worldFromParent =
-                    attached.node        ? glm::dmat4(moment.worldFromNode[*attached.node])
-                    : attached.isInWorld ? glm::dmat4(1)
-                                         : scene.worldFromFile;
+                const glm::dmat4 worldFromParent = attached.node
+                                                       ? glm::dmat4(moment.worldFromNode[*attached.node])
+                                                   : attached.isInWorld ? glm::dmat4(1)
+                                                                        : scene.worldFromFile;
                 Light light = attached.light;
                 glm::mat4 worldFromLight =
                     gltf::rigidPart(glm::mat4(worldFromParent * attached.parentFromLight));
