@@ -151,8 +151,9 @@ TEST(Layout, RoomsIncludeWhatTheTableSaysAndNothingElse) {
 
 TEST(Layout, EveryFolderOfTheTableIsThere) {
     for (const Room& room : tableOfRooms()) {
-        if (room.folder.find('<') == std::string::npos)
+        if (room.folder.find('<') == std::string::npos) {
             EXPECT_TRUE(fs::is_directory(root / room.folder)) << room.folder;
+        }
     }
 }
 

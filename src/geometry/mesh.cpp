@@ -115,11 +115,11 @@ void Mesh::deform(std::span<const Vec3> positions) {
     ++internals().revision;
 }
 
-void Mesh::Internals::deform(Device::Internals& device, const HostVectors& from, const Box& box) {
+void Mesh::Internals::deform(Device::Internals& current, const HostVectors& from, const Box& box) {
     require(isFinite(box.min) && isFinite(box.max) && box.min.x <= box.max.x && box.min.y <= box.max.y &&
                 box.min.z <= box.max.z,
             "deform: the bounds are not finite or empty");
-    gatherVectors(device, from, positions.size(), 3, positionBuffer, "deform");
+    gatherVectors(current, from, positions.size(), 3, positionBuffer, "deform");
     positionsAreStale = true;
     if (!indices.empty()) bounds = box;
     ++revision;

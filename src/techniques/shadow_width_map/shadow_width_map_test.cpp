@@ -216,7 +216,9 @@ TEST_F(ShadowWidthTest, UmbrasAreBlackAtEveryStartingDifferenceAndZoom) {
             for (int x = 0; x < size.width_px; ++x) {
                 const double sw_m = depthInShadow_m(x, size.width_px, zoom);
                 const float seen = result.visibility.at(x, size.height_px / 2, 0);
-                if (sw_m > 0.52) EXPECT_EQ(seen, 0) << zoom << " " << start << " " << sw_m;
+                if (sw_m > 0.52) {
+                    EXPECT_EQ(seen, 0) << zoom << " " << start << " " << sw_m;
+                }
                 if (sw_m > 0) light += seen;
             }
             EXPECT_GE(light, before) << zoom << " " << start;
