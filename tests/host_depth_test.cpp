@@ -48,7 +48,7 @@ TEST_F(HostDepth, OfLargeGroundsShadowsNothing) {
         const RandomGround ground = makeRandomGround(seed);
         const auto seen = [&](const Scene& scene, const DepthForm& form) {
             const float eye_m = glm::length(glm::vec3(scene.at(0).cameras[0].worldFromCamera[3]));
-            return visibility(drawScene(scene, {64, 40}), form, Planes{0.01 * eye_m, 20'000}, true);
+            return visibility(drawScene(scene, {64, 40}), form, Planes{0.1 * eye_m, 20'000}, true);
         };
         for (const DepthForm& form : {best, usual[0], usual[1], usual[4]}) {
             const Image casting = seen(ground.casting, form), receiving = seen(ground.receiving, form);
@@ -70,11 +70,11 @@ TEST_F(HostDepth, PolygonOffsetIsTakenOutAgain) {
     for (const DepthForm& form : {usual[0], usual[1], usual[2], usual[5], best}) {
         std::map<std::string, double> expected;
         for (const char* technique : {"hard", "pcss", "exact"})
-            expected[technique] = meanOf(visibility(technique, inputs, drawn(inputs, form, range, {})));
+            expected[technique] = meanOf(visibility(technique, inputs, drawn(inputs, form, range, {}, true)));
         const float away = form.convention.reversed ? -1 : 1;
         for (const auto& [factor, units] : {std::pair{0.01f, 0.0f}, {1.0f, 1.0f}, {2.0f, 8.0f}}) {
             const PolygonOffset offset{away * factor, away * units};
-            View view = drawn(inputs, form, range, offset);
+            View view = drawn(inputs, form, range, offset, true);
             view.polygonOffset = offset;
             for (const auto& [technique, mean] : expected) {
                 EXPECT_NEAR(meanOf(visibility(technique.c_str(), inputs, view)), mean, 0.005)

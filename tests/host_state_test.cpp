@@ -131,7 +131,7 @@ TEST_F(HostTest, OptingOutChangesStateButTrustsNoneOfIt) {
     const ShadowInputs inputs = drawScene();
     VisibilityBuffer expected(device(), inputs.view.width_px, inputs.view.height_px);
     workbench().makeTechnique("pcss")->render(inputs, expected);
-    Device careless({.keepHostState = false});
+    Device careless({.keepHostState = false, .shared = &device()});
     VisibilityBuffer seen(careless, inputs.view.width_px, inputs.view.height_px);
     {
         const NastyHost host;

@@ -233,6 +233,7 @@ void HostState::restoreUnits() const {
         }
         glBindSampler(unit, GLuint(textureUnits_[unit].sampler));
     }
+    glActiveTexture(GLenum(activeTexture_));
     for (GLuint unit = 0; unit < imageUnits; ++unit) {
         const ImageUnit& image = imageUnits_[unit];
         glBindImageTexture(unit, GLuint(image.texture), image.level, GLboolean(image.layered), image.layer,

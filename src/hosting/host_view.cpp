@@ -96,12 +96,14 @@ View HostView::prepare(const View& view) {
               (view.depth.range == DepthConvention::Range::minusOneToOne ? 2 : 1);
     if (shift != glm::dvec3(0)) plain.clipFromView = shifted(view.clipFromView, shift);
     plain.depthTexture = copied(view.depthTexture, depth_, gl::Format::r32f, view);
+    plain.normalTexture = copied(view.normalTexture, normals_, gl::Format::rgba32f, view);
     if (hasOffset) {
         if (!offsetUndoing_) offsetUndoing_.emplace(device_);
-        plain.depthTexture = offsetUndoing_->run(plain.depthTexture, view);
+        // The normals' copy is read by the same device's next pass.
+        device_.shaders.order()->makeAllVisible();
+        plain.depthTexture = offsetUndoing_->run(plain.depthTexture, plain.normalTexture, view);
         plain.polygonOffset = {};
     }
-    plain.normalTexture = copied(view.normalTexture, normals_, gl::Format::rgba32f, view);
     plain.receiverTexture = copied(view.receiverTexture, receivers_, gl::Format::r8, view);
     // Techniques bind them by name, as they do a host's.
     if (plain.depthTexture != view.depthTexture || plain.normalTexture != view.normalTexture ||

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "src/device/glm_types.h"
 #include "src/gl/pass.h"
 #include "src/hosting/offset_undoing_io.h"
 
@@ -22,20 +23,30 @@ double leastDifference(GLuint texture) {
 OffsetUndoing::OffsetUndoing(Device::Internals& device)
     : program_(device.shaders, {"src/hosting/offset_undoing.comp.glsl"}) {}
 
-GLuint OffsetUndoing::run(GLuint depthTexture, const View& view) {
+GLuint OffsetUndoing::run(GLuint depthTexture, GLuint normalTexture, const View& view) {
+    const bool isFromZero = view.depth.range == DepthConvention::Range::zeroToOne;
+    glm::dmat4 clipFromDepth(1);  // of normalised coordinates and the stored depth
+    clipFromDepth[2][2] = isFromZero ? 1 : 2;
+    clipFromDepth[3][2] = isFromZero ? 0 : -1;
+    const glm::dmat4 worldFromDepth =
+        glm::inverse(toGlm(view.clipFromView) * toGlm(view.viewFromWorld)) * clipFromDepth;
     undone_.fit({.width_px = view.width_px,
                  .height_px = view.height_px,
                  .format = gl::Format::r32f,
                  .label = "depth without polygon offset"});
     gl::Pass(program_)
         .constants(OffsetUndoingConstants{
+            .worldFromDepth = worldFromDepth,
+            .depthPlaneFromWorld = glm::transpose(worldFromDepth),
             .size_px = {view.width_px, view.height_px},
             .factor = view.polygonOffset.factor,
             .units = view.polygonOffset.units,
             // What the host drew into decides, and not a copy of it.
             .leastDifference = float(leastDifference(view.depthTexture)),
             .background = view.depth.reversed ? 0.0f : 1.0f,
+            .hasNormals = normalTexture != 0,
         })
+        .bind("normals", gl::TextureRef{.name = normalTexture})
         .bind("depths", gl::TextureRef{.name = depthTexture})
         .bind("undone", undone_)
         .dispatchPixels(view.width_px, view.height_px);

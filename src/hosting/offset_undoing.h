@@ -13,8 +13,10 @@ class OffsetUndoing {
   public:
     explicit OffsetUndoing(Device::Internals& device);
 
-    /// `depthTexture` shows the view's picture and nothing else. The result is kept until the next call.
-    GLuint run(GLuint depthTexture, const View& view);
+    /// `depthTexture` shows the view's picture and nothing else, and so does `normalTexture`, which may be 0: then
+    /// slopes come from the depths alone, and triangles smaller than three pixels are guessed at. The result is kept
+    /// until the next call.
+    GLuint run(GLuint depthTexture, GLuint normalTexture, const View& view);
 
   private:
     gl::Program program_;

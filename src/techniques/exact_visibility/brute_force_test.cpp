@@ -54,6 +54,25 @@ class BruteForceShaders {
     fs::path folder_;
 };
 
+/// A technique of another device on the same context, which writes where it is told as into a host's texture.
+class OfAnotherDevice final : public Technique {
+  public:
+    OfAnotherDevice(Device& device, std::string_view name)
+        : device_(device), technique_(makeTechnique(device, name)) {}
+    void describe(ParameterVisitor& visitor) override { technique_->describe(visitor); }
+    void render(const ShadowInputs& inputs, VisibilityBuffer& out) override {
+        const VisibilityBuffer::HostTexture texture{
+            .texture = out.texture(), .width_px = out.width_px(), .height_px = out.height_px()};
+        VisibilityBuffer ours(device_, texture, out.colored());
+        technique_->render(inputs, ours);
+    }
+    Statistics statistics() const override { return technique_->statistics(); }
+
+  private:
+    Device& device_;
+    std::unique_ptr<Technique> technique_;
+};
+
 class BruteForceTest : public TechniqueTest {
   protected:
     void expectSameBits(const Scene& scene, const std::string& name, PictureSize size = {48, 32}) {
@@ -66,8 +85,9 @@ class BruteForceTest : public TechniqueTest {
     }
 
     BruteForceTest()
-        : device_((workbench().makeCurrent(), DeviceOptions{.shaderSourceDirectory = shaders_.folder()})),
-          brute_(makeTechnique(device_, "exact")) {
+        : device_((workbench().makeCurrent(), DeviceOptions{.shaderSourceDirectory = shaders_.folder(),
+                                                            .shared = &workbench().device()})),
+          brute_(std::make_unique<OfAnotherDevice>(device_, "exact")) {
         setParameter(*brute_, "tile_candidates", "4096");
     }
 

@@ -7,8 +7,9 @@
 // which grows with the square of the distance. And corners that are far away are rounded more than a receiver is.
 
 const float rounding = 5.9604645e-8;  // 2^-24, of a float of size 1
-// Both are about three times what was found among 2,000 random grounds (exact_ground_test.cpp).
-const float depthRoundings = 16.0;
+// The least with which no random ground of tests/ground_test.cpp and tests/host_depth_test.cpp shadows itself. With more,
+// contacts lose their shadows in depths that are not reversed (HostDepth.ThatIsNotReversedMakesNoSpeckles).
+const float depthRoundings = 8.0;
 const float cornerRoundings = 8.0;
 
 struct Footing {

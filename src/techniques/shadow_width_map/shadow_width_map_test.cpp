@@ -180,8 +180,8 @@ TEST_F(ShadowWidthTest, WhatEndsBeneathAnotherCasterKeepsItsUmbra) {
 
 /// From straight above, 4 m across.
 Scene straightEdge(LightShape shape = LightShape::rect, float zoom = 1) {
-    return withMoment(withLight(makeBuiltin("half-plane"), [&](Light& light) { light.shape.shape = shape; }),
-                      [&](SceneMoment& moment) {
+    return withMoment(withLight(makeBuiltin("half-plane"), [=](Light& light) { light.shape.shape = shape; }),
+                      [=](SceneMoment& moment) {
                           moment.cameras.erase(moment.cameras.begin());
                           *moment.cameras.front().orthographicHeight_m /= zoom;
                       });
