@@ -89,24 +89,9 @@ Agreement compareSome(const HostDepths& depths, const CasterPicture& picture, co
     return result;
 }
 
-/// Solves the normal equations of `Size` unknowns; false where they depend on each other.
-template <std::size_t Size>
-bool solve(std::array<std::array<double, Size + 1>, Size>& rows) {
-    for (std::size_t i = 0; i < Size; ++i) {
-        std::size_t best = i;
-        for (std::size_t k = i + 1; k < Size; ++k) {
-            if (std::abs(rows[k][i]) > std::abs(rows[best][i])) best = k;
-        }
-        std::swap(rows[i], rows[best]);
-        if (!(std::abs(rows[i][i]) > 1e-9)) return false;
-        for (std::size_t k = 0; k < Size; ++k) {
-            if (k == i) continue;
-            const double factor = rows[k][i] / rows[i][i];
-            for (std::size_t j = i; j <= Size; ++j) rows[k][j] -= factor * rows[i][j];
-        }
-    }
-    for (std::size_t i = 0; i < Size; ++i) rows[i][Size] /= rows[i][i];
-    return true;
+/// What one unit of an offset is, and no less than what floats of the comparison hold.
+double offsetUnit(const HostDepths& depths) {
+    return std::max(depths.leastDifference, std::exp2(-24.0));
 }
 
 }  // namespace
@@ -120,51 +105,59 @@ Agreement compareCaster(const HostDepths& depths, const CasterPicture& picture, 
     return compareSome(depths, picture, reading, caster);
 }
 
-SmallDifferences fitSmallDifferences(const HostDepths& depths, const CasterPicture& picture,
-                                     const Reading& reading) {
-    constexpr std::size_t unknowns = 4;
-    constexpr double farthest_px = 4;  // differences larger than such a step are another surface's
-    std::array<std::array<double, unknowns + 1>, unknowns> rows{};
-    std::array<double, unknowns> scale{};
-    std::size_t count = 0;
-    const float background = reading.depth.reversed ? 0.0f : 1.0f;
-    const double step = depths.leastDifference;
-    const auto visitAll = [&](auto use) {
-        forEachPixel(depths, picture, reading.isUpsideDown, [&](int x, int y, float depth) {
-            const auto& expected = picture.at(x, y);
-            if (depth == background || !shows(expected)) return;
-            const Slopes slopes = slopesAt(picture, x, y);
-            if (!slopes.isInside) return;
-            const double difference = double(depth) - double(expected.depth);
-            const double steepest = std::max(std::abs(slopes.x), std::abs(slopes.y));
-            if (std::abs(difference) > farthest_px * steepest + 64 * step) return;
-            use(std::array<double, unknowns>{steepest, step, slopes.x, slopes.y}, difference);
-        });
-    };
-    visitAll([&](const std::array<double, unknowns>& terms, double) {
-        ++count;
-        for (std::size_t i = 0; i < unknowns; ++i) scale[i] = std::max(scale[i], std::abs(terms[i]));
-    });
-    SmallDifferences result;
+TwoTerms fitTwoTerms(const HostDepths& depths, const CasterPicture& picture, const Reading& reading,
+                     SmallDifference kind) {
+    constexpr int rounds = 3;  // each without what the one before leaves unexplained
     constexpr std::size_t enough = 64;
-    if (count < enough) return result;
-    for (double& s : scale) s = s > 0 ? s : 1;
-    // In units of the largest, so that no term drowns; each pixel weighs as one of its own steps.
-    visitAll([&](const std::array<double, unknowns>& terms, double difference) {
-        const double weight = 1 / std::pow(terms[0] + step, 2);
-        for (std::size_t i = 0; i < unknowns; ++i) {
-            for (std::size_t j = 0; j < unknowns; ++j)
-                rows[i][j] += weight * terms[i] * terms[j] * scale[0] * scale[0] / (scale[i] * scale[j]);
-            rows[i][unknowns] += weight * terms[i] * difference * scale[0] / scale[i];
-        }
+    const float background = reading.depth.reversed ? 0.0f : 1.0f;
+    const double step = offsetUnit(depths);
+    struct Pixel {
+        double first, second;  // the terms
+        double difference, steepest;
+    };
+    std::vector<Pixel> pixels;
+    forEachPixel(depths, picture, reading.isUpsideDown, [&](int x, int y, float depth) {
+        const auto& expected = picture.at(x, y);
+        if (depth == background || !shows(expected)) return;
+        const Slopes slopes = slopesAt(picture, x, y);
+        if (!slopes.isInside) return;
+        const double steepest = std::max(std::abs(slopes.x), std::abs(slopes.y));
+        const bool isOffset = kind == SmallDifference::offset;
+        pixels.push_back({isOffset ? steepest : slopes.x, isOffset ? step : slopes.y,
+                          double(depth) - double(expected.depth), steepest});
     });
-    for (auto& row : rows) {
-        for (double& value : row) value /= double(count);
+    TwoTerms result;
+    if (pixels.size() < enough) return result;
+    const auto unexplained = [&](const Pixel& pixel) {
+        return std::abs(pixel.difference - result.first * pixel.first - result.second * pixel.second);
+    };
+    for (int round = 0; round < rounds; ++round) {
+        double aa = 0, ab = 0, bb = 0, ac = 0, bc = 0;
+        // At first what is more than some pixels away is another surface's.
+        const double reach_px = round == 0 ? 4 : 0.3;
+        for (const Pixel& pixel : pixels) {
+            if (unexplained(pixel) > reach_px * pixel.steepest + 64 * step) continue;
+            // Each pixel weighs as one of its own steps.
+            const double weight = 1 / std::pow(pixel.steepest + step, 2);
+            aa += weight * pixel.first * pixel.first;
+            ab += weight * pixel.first * pixel.second;
+            bb += weight * pixel.second * pixel.second;
+            ac += weight * pixel.first * pixel.difference;
+            bc += weight * pixel.second * pixel.difference;
+        }
+        const double determinant = aa * bb - ab * ab;
+        if (!(determinant > 1e-12 * aa * bb)) return {};
+        result.first = (ac * bb - bc * ab) / determinant;
+        result.second = (bc * aa - ac * ab) / determinant;
     }
-    if (!solve<unknowns>(rows)) return result;
-    std::array<double, unknowns> values{};
-    for (std::size_t i = 0; i < unknowns; ++i) values[i] = rows[i][unknowns] * scale[0] / scale[i];
-    return {values[0], values[1], values[2], values[3], true};
+    // Explained: to a fiftieth of a pixel, to what slopes between pixels differ from those of small triangles, and to
+    // what depths are rounded by.
+    const double allowed_px = 0.02 + (kind == SmallDifference::offset ? 0.2 * std::abs(result.first) : 0);
+    const auto explained = std::ranges::count_if(pixels, [&](const Pixel& pixel) {
+        return unexplained(pixel) <= allowed_px * pixel.steepest + tolerance_steps * step;
+    });
+    result.share = double(explained) / double(pixels.size());
+    return result;
 }
 
 DepthLine fitDepthLine(const HostDepths& depths, const CasterPicture& picture) {

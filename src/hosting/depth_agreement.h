@@ -29,14 +29,19 @@ Agreement compare(const HostDepths& depths, const CasterPicture& picture, const 
 Agreement compareCaster(const HostDepths& depths, const CasterPicture& picture, const Reading& reading,
                         std::size_t caster);
 
-/// What small differences have in common, by least squares over pixels inside of surfaces.
-struct SmallDifferences {
-    double factor = 0, units = 0;  ///< glPolygonOffset's
-    double right_px = 0, up_px = 0;
-    bool areKnown = false;  ///< enough pixels, whose slopes differ
+/// What may move all depths a little.
+enum class SmallDifference {
+    offset,  ///< glPolygonOffset's: factor, and units (of 2^-24 at least)
+    place,   ///< of what is seen, in pixels to the right and up
 };
-SmallDifferences fitSmallDifferences(const HostDepths& depths, const CasterPicture& picture,
-                                     const Reading& reading);
+
+/// How much of it, by least squares over pixels inside of surfaces, without those that it does not explain.
+struct TwoTerms {
+    double first = 0, second = 0;
+    double share = 0;  ///< of the pixels inside of surfaces, those that it explains; 0 too where little is known
+};
+TwoTerms fitTwoTerms(const HostDepths& depths, const CasterPicture& picture, const Reading& reading,
+                     SmallDifference kind);
 
 /// The straight line by which depths follow from the casters' (in perspective that is what another near or
 /// far plane, or another convention, does): depth = slope * expected + offset.

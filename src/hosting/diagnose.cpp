@@ -25,7 +25,7 @@ constexpr std::size_t fewPixels = 16;
 /// The share of the picture from which surfaces are told that no caster accounts for.
 constexpr double noticedShare = 0.004;
 /// From where an offset of depths is told, of a pixel's step, and a sample's place, in pixels.
-constexpr double noticedFactor = 0.004, noticedUnits = 0.75, noticedShift_px = 0.05;
+constexpr double noticedFactor = 0.004, noticedUnits = 24, noticedShift_px = 0.05;
 
 HostDepths read(GLuint texture, const View& view, const View& asGiven) {
     HostDepths depths;
@@ -120,24 +120,25 @@ class Search {
     }
 
     void sayOfSmallDifferences(const CasterPicture& picture, const Reading& reading) {
-        const SmallDifferences found = fitSmallDifferences(depths_, picture, reading);
-        if (!found.areKnown) return;
+        const TwoTerms offset = fitTwoTerms(depths_, picture, reading, SmallDifference::offset);
+        const TwoTerms place = fitTwoTerms(depths_, picture, reading, SmallDifference::place);
+        if (std::max(offset.share, place.share) < goodShare) return;
         std::ostringstream text;
         text.precision(2);
-        // With a sample elsewhere slopes of all signs move depths; with an offset they all move one way.
-        if (std::abs(found.factor) > noticedFactor && std::abs(found.factor) < 100) {
-            text << "the depths lie behind or before the casters by a polygon offset with a factor near "
-                 << found.factor + view_.polygonOffset.factor << ": set View::polygonOffset, or switch "
-                 << "GL_POLYGON_OFFSET_FILL off";
-        } else if (std::abs(found.units) > noticedUnits + 4 * std::abs(depths_.background == 0 ? 1 : 6)) {
-            text
-                << "the depths lie behind or before the casters by the same difference everywhere, a polygon "
-                << "offset of " << found.units + view_.polygonOffset.units
-                << " units: set View::polygonOffset, or switch GL_POLYGON_OFFSET_FILL off";
-        } else if (std::hypot(found.right_px, found.up_px) > noticedShift_px) {
-            text << "the depths are of places (" << -found.right_px << ", " << -found.up_px
+        if (place.share > offset.share) {
+            if (std::hypot(place.first, place.second) <= noticedShift_px) return;
+            text << "the depths are of places (" << -place.first << ", " << -place.second
                  << ") pixels from where they are said to be: set View::samplePlace, give the jittered "
                  << "View::clipFromView, or move View::x_px and y_px";
+        } else if (std::abs(offset.first) > noticedFactor) {
+            text << "the depths lie behind or before the casters by a polygon offset with a factor near "
+                 << offset.first + view_.polygonOffset.factor << ": set View::polygonOffset, or switch "
+                 << "GL_POLYGON_OFFSET_FILL off";
+        } else if (std::abs(offset.second) > noticedUnits) {
+            text
+                << "the depths lie behind or before the casters by the same difference everywhere, a polygon "
+                << "offset of " << offset.second + view_.polygonOffset.units
+                << " units: set View::polygonOffset, or switch GL_POLYGON_OFFSET_FILL off";
         } else {
             return;
         }

@@ -94,8 +94,13 @@ std::vector<OtherReading> otherReadings(const Reading& stated, int width_px, int
         [](Reading& reading) { reading.clipFromView = glm::transpose(reading.clipFromView); });
     add("View::clipFromView is the wrong way round (viewFromClip): give its inverse",
         [](Reading& reading) { reading.clipFromView = glm::inverse(reading.clipFromView); });
-    add("View::clipFromView contains the view's matrix already: give the projection alone",
-        [](Reading& reading) { reading.viewFromWorld = dmat4(1); });
+    // A projection alone takes x and y for nothing but x and y.
+    const dmat4& given = stated.clipFromView;
+    const bool isProjection = given[0][3] == 0 && given[1][3] == 0 && given[0][1] == 0 && given[1][0] == 0;
+    if (!isProjection) {
+        add("View::clipFromView contains the view's matrix already: give the projection alone",
+            [](Reading& reading) { reading.viewFromWorld = dmat4(1); });
+    }
     const double aspect = double(width_px) / double(height_px);
     for (const bool ofWidth : {true, false}) {
         add("View::clipFromView is of another shape of picture: its width to height is not the view's",
