@@ -550,7 +550,7 @@ TEST_F(CommandTest, InfoReadsLuminaires) {
     EXPECT_EQ(json["candela"][1]["cd"], 100);
     EXPECT_NE(run("info " + at("lamp.ies")).out.find("1256.64"), std::string::npos);
 
-    write("broken.ies", isotropic.substr(0, isotropic.size() - 5) + "-1\n");
+    write("broken.ies", isotropic.substr(0, isotropic.size() - 4) + "-1\n");
     const Outcome broken = run("info --json " + at("broken.ies"));
     EXPECT_EQ(broken.exitCode, 3);
     EXPECT_TRUE(broken.out.empty());

@@ -150,7 +150,7 @@ void expectShadows(const Image& plain, const Image& shadowed) {
     }
     const double all = double(plain.values.size());
     EXPECT_GT(double(same) / all, 0.5) << "what sees the lamp is as the host drew it";
-    EXPECT_GT(double(darker) / all, 0.01) << "umbra";
+    EXPECT_GT(double(darker) / all, 0.005) << "umbra";
     EXPECT_GT(double(between) / all, 0.01) << "penumbra";
 }
 
@@ -170,8 +170,7 @@ INSTANTIATE_TEST_SUITE_P(Examples, Hosts,
                                                 "--no-shadows", "--technique exact", "--screenshot "},
                                            Host{"osg_host", "OpenSceneGraph 3.6 COMPONENTS osgViewer",
                                                 "libopenscenegraph-dev", "--no-shadows", "--technique exact",
-                                                "--screenshot "},
-                                           Host{"coin_host", "Coin 4", "libcoin-dev", "none", "exact", ""}),
+                                                "--screenshot "}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST_P(Hosts, AreServed) {

@@ -284,7 +284,8 @@ double centerLux(const Light& light) {
 
 TEST_F(FrameTest, LuminairesAreCandelaFromAfar) {
     const AreaLight panel{.shape = LightShape::rect, .width_m = 0.6f, .height_m = 0.3f};
-    for (const double beside_m : {0.0, 2.5}) {
+    // Not straight below: candela has a ridge there, over which the panel is no point however far it is.
+    for (const double beside_m : {1.5, 2.5}) {
         const Light light = profiledLight(panel, true, 4, beside_m);  // beyond five times its size
         const double distance2 = 16 + beside_m * beside_m;
         const glm::dmat3 turn(glm::rotate(glm::dmat4(1), -0.4, glm::dvec3(0, 0, 1)));

