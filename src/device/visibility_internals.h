@@ -21,7 +21,7 @@ struct VisibilityBuffer::Internals {
     /// One with a texture of its own, as the public constructor makes it.
     static VisibilityBuffer make(Device::Internals& device, int width_px, int height_px, bool colored);
 
-    /// Techniques write pixel (x, y) to texel (x, y), as bindVisibility says: anything else needs a copy.
+    /// Techniques write pixel (x, y) to texel (x, y), as imageOf says: anything else needs a copy.
     bool isPlain() const {
         return host.x_px == 0 && host.y_px == 0 && format == GLenum(colored ? GL_RGBA16F : GL_R32F);
     }

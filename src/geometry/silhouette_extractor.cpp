@@ -115,16 +115,6 @@ void SilhouetteExtractor::findFacings(std::span<const SilhouetteSource> sources,
     }
 }
 
-void SilhouetteExtractor::bindEdges(unsigned block) const {
-    glMemoryBarrier(GL_ALL_BARRIER_BITS);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block, silhouettes_.name());
-}
-
-void SilhouetteExtractor::bindFacings(unsigned block) const {
-    glMemoryBarrier(GL_ALL_BARRIER_BITS);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, block, facings_.name());
-}
-
 unsigned SilhouetteExtractor::countFound() const {
     SilhouetteCommands commands{};
     if (edgeCount_ > 0) commands_.read(std::as_writable_bytes(std::span(&commands, 1)));

@@ -40,8 +40,6 @@ class SilhouetteExtractor {
 
     /// The list (SilhouetteEdge, silhouettes_io.h).
     const gl::Buffer& edges() const { return silhouettes_; }
-    /// Binds it to storage block `block`, for passes that number what they bind.
-    void bindEdges(unsigned block) const;
 
     /// Holds one SilhouetteCommands: for glDrawArraysIndirect at offset 0, for glDispatchComputeIndirect
     /// (groups of 64 edges) at `dispatchOffset`.
@@ -50,8 +48,6 @@ class SilhouetteExtractor {
 
     /// For each triangle of source after source, an int: +1 where it shows its front, -1 where its back.
     const gl::Buffer& facings() const { return facings_; }
-    /// Binds them as bindEdges does.
-    void bindFacings(unsigned block) const;
 
     /// Number of edges examined.
     std::size_t edgeCount() const { return edgeCount_; }

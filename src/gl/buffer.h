@@ -51,7 +51,6 @@ class ConstantBuffer {
   public:
     explicit ConstantBuffer(std::string_view label) : buffer_(sizeof(T), label) {}
     void write(const T& value) { buffer_.write(std::as_bytes(std::span(&value, 1))); }
-    void bindUniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, buffer_.name()); }
     const Buffer& buffer() const { return buffer_; }
 
   private:
@@ -67,7 +66,6 @@ class StorageArray {
         buffer_.reserve(values.size_bytes(), label_);
         if (!values.empty()) buffer_.write(std::as_bytes(values));
     }
-    void bind(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer_.name()); }
     const Buffer& buffer() const { return buffer_; }
 
   private:

@@ -8,6 +8,7 @@
 #include "penumbra/device.h"
 #include "src/gl/buffer.h"
 #include "src/gl/framebuffer.h"
+#include "src/gl/pass.h"
 #include "src/gl/pass_timers.h"
 #include "src/gl/program.h"
 #include "src/gl/shader_library.h"
@@ -25,7 +26,7 @@ class GlTest : public ::testing::Test {
 constexpr std::string_view doubling = R"(#version 450
 layout(local_size_x = 1) in;
 #include "factor.glsl"
-layout(std430, binding = 0) buffer Values { float values[]; };
+layout(std430) buffer Values { float values[]; };
 void main() { values[gl_GlobalInvocationID.x] *= factor; }
 )";
 
@@ -37,10 +38,7 @@ ShaderLibrary libraryOf(std::span<const EmbeddedShader> shaders) {
 
 std::array<float, 2> runOn(const Program& program, std::array<float, 2> values) {
     Buffer buffer(std::as_bytes(std::span(values)), "values");
-    program.use();
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.name());
-    glDispatchCompute(2, 1, 1);
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    Pass(program).bind("Values", buffer).dispatch(2);
     buffer.read(std::as_writable_bytes(std::span(values)));
     return values;
 }

@@ -22,7 +22,7 @@ const void* at(std::size_t offset_bytes) {
 
 Pass::Pass(const Program& program)
     : program_(program.state()),
-      interface_((program_.prepareForPasses(), program_.interface)),
+      interface_(program_.interface),
       order_(*program_.order),
       serial_(order_.beginPass()) {
     glUseProgram(program_.handle.name());

@@ -73,11 +73,11 @@ Handle<deleteShader> compile(const ShaderLibrary::Source& source, const std::str
 
 void ProgramState::build(const ShaderLibrary& library) {
     Handle<deleteProgram> program(glCreateProgram());
-    std::vector<std::string> newTexts;
+    std::vector<std::string> texts;
     for (const std::string& file : files) {
         ShaderLibrary::Source source = library.expand(file, defines);
         glAttachShader(program.name(), compile(source, file).name());
-        newTexts.push_back(std::move(source.text));
+        texts.push_back(std::move(source.text));
     }
     glLinkProgram(program.name());
     GLint linked = 0;
@@ -87,14 +87,6 @@ void ProgramState::build(const ShaderLibrary& library) {
     }
     label(GL_PROGRAM, program.name(), files.back());
     handle = std::move(program);
-    texts = std::move(newTexts);
-    const bool isReload = !interface.all().empty();
-    interface = {};
-    if (isReload) prepareForPasses();
-}
-
-void ProgramState::prepareForPasses() {
-    if (!interface.all().empty()) return;
     const auto vertexStage =
         std::ranges::find_if(files, [](const std::string& file) { return file.ends_with(".vert.glsl"); });
     interface = ProgramInterface(handle.name(), texts,
@@ -105,7 +97,7 @@ void ProgramState::prepareForPasses() {
         lastConstants.clear();
     }
     if (vertexStage == files.end()) return;
-    if (vertices.name() == 0) vertices = makeFloatVertexArray();
+    if (vertices.name() == 0) vertices = makeVertexArray();
     for (const ProgramResource& input : interface.all()) {
         if (input.kind != ProgramResource::Kind::vertexInput || !input.isActive) continue;
         if (input.isInteger) {
@@ -124,22 +116,6 @@ void ProgramState::writeConstants(std::span<const std::byte> bytes) {
 }
 
 Program::Program(ShaderLibrary& library, std::vector<std::string> files, std::vector<std::string> defines)
-    : state_(std::make_shared<ProgramState>()) {
-    state_->files = std::move(files);
-    state_->defines = std::move(defines);
-    state_->order = library.order();
-    state_->build(library);
-    library.track(state_);
-}
-
-void dispatchPixels(int width_px, int height_px) {
-    glDispatchCompute(GLuint(width_px + 7) / 8, GLuint(height_px + 7) / 8, 1);
-}
-
-void dispatchIndirect(const Buffer& buffer, std::size_t offset_bytes) {
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer.name());
-    glDispatchComputeIndirect(GLintptr(offset_bytes));
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
-}
+    : state_(library.program(std::move(files), std::move(defines))) {}
 
 }  // namespace penumbra::gl

@@ -85,16 +85,23 @@ void ShaderLibrary::expandInto(Source& source, std::string_view path,
     }
 }
 
-void ShaderLibrary::track(const std::shared_ptr<ProgramState>& program) {
-    std::erase_if(programs_, [](const auto& tracked) { return tracked.expired(); });
-    programs_.push_back(program);
+std::shared_ptr<ProgramState> ShaderLibrary::program(std::vector<std::string> files,
+                                                     std::vector<std::string> defines) {
+    const auto known = std::ranges::find_if(programs_, [&](const auto& program) {
+        return program->files == files && program->defines == defines;
+    });
+    if (known != programs_.end()) return *known;
+    auto made = std::make_shared<ProgramState>();
+    made->files = std::move(files);
+    made->defines = std::move(defines);
+    made->order = order_;
+    made->build(*this);
+    return programs_.emplace_back(std::move(made));
 }
 
 void ShaderLibrary::reload() {
     std::string failures;
-    for (const auto& tracked : programs_) {
-        const std::shared_ptr<ProgramState> program = tracked.lock();
-        if (!program) continue;
+    for (const auto& program : programs_) {
         try {
             program->build(*this);
         } catch (const Error& error) {

@@ -43,11 +43,12 @@ class ShaderLibrary {
     /// `defines` are names, or "NAME value". Throws Error::Kind::shader if a file is missing.
     Source expand(std::string_view path, std::span<const std::string> defines) const;
 
-    /// Compiles every living program again. One that fails keeps its last good version; their messages are
+    /// Compiles every program again. One that fails keeps its last good version; their messages are
     /// thrown together as Error::Kind::shader.
     void reload();
 
-    void track(const std::shared_ptr<ProgramState>& program);
+    /// The program of these files and defines, compiled when it is first asked for. Throws as Program does.
+    std::shared_ptr<ProgramState> program(std::vector<std::string> files, std::vector<std::string> defines);
 
   private:
     std::string read(std::string_view path) const;
@@ -55,7 +56,7 @@ class ShaderLibrary {
 
     std::filesystem::path sourceRoot_;
     std::vector<EmbeddedShader> embedded_;
-    std::vector<std::weak_ptr<ProgramState>> programs_;
+    std::vector<std::shared_ptr<ProgramState>> programs_;
     std::shared_ptr<WriteOrder> order_ = std::make_shared<WriteOrder>();
 };
 

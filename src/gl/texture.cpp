@@ -131,8 +131,4 @@ void Texture::read(std::span<std::byte> texels, int layer) const {
                          transfer.type, GLsizei(texels.size()), texels.data());
 }
 
-void Texture::bindImage(GLuint unit, GLenum access) const {
-    glBindImageTexture(unit, name(), 0, GL_TRUE, 0, access, GLenum(spec_.format));
-}
-
 }  // namespace penumbra::gl

@@ -32,6 +32,7 @@ enum class Format : GLenum {
     depth32fStencil8 = GL_DEPTH32F_STENCIL8,
 };
 
+enum class Wrap : GLenum { clamp = GL_CLAMP_TO_EDGE, repeat = GL_REPEAT };
 enum class Filter : GLenum { nearest = GL_NEAREST, linear = GL_LINEAR };
 
 /// A texture as passes bind it; also one that is not ours, which they may read.
@@ -50,7 +51,7 @@ struct TextureSpec {
     int levels = 1;
     Format format = Format::rgba8;
     Filter filter = Filter::nearest;
-    GLenum wrap = GL_CLAMP_TO_EDGE;
+    Wrap wrap = Wrap::clamp;
     std::string_view label;
 };
 
@@ -77,9 +78,6 @@ class Texture {
     TextureRef ref(int level = 0) const { return {name(), format(), level, true, &record_}; }
     /// Kept by passes.
     WriteRecord& record() const { return record_; }
-
-    void bind(GLuint unit) const { glBindTextureUnit(unit, name()); }
-    void bindImage(GLuint unit, GLenum access) const;
 
     GLuint name() const { return handle_.name(); }
     int width_px() const { return spec_.width_px; }

@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
+#include "src/gl/pass.h"
 #include "studio/frame/conversions.h"
 #include "studio/scene/builtin/builtin.h"
 #include "studio/scene/builtin/placing.h"
@@ -65,10 +66,7 @@ class UnshadowedTest : public TechniqueTest {
         gl::ShaderLibrary shaders{PENUMBRA_SOURCE_DIRECTORY};
         const gl::Program program(shaders, {"studio/frame/unshadowed_test.comp.glsl"});
         gl::Buffer buffer(std::as_bytes(std::span(cases)), "cases");
-        program.use();
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.name());
-        glDispatchCompute(GLuint(cases.size()), 1, 1);
-        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        gl::Pass(program).bind("Cases", buffer).dispatch(cases.size());
         buffer.read(std::as_writable_bytes(std::span(cases)));
     }
 
@@ -289,8 +287,9 @@ TEST_F(FrameTest, LuminairesAreCandelaFromAfar) {
         const Light light = profiledLight(panel, true, 4, beside_m);  // beyond five times its size
         const double distance2 = 16 + beside_m * beside_m;
         const glm::dmat3 turn(glm::rotate(glm::dmat4(1), -0.4, glm::dvec3(0, 0, 1)));
-        const glm::dvec3 down = glm::transpose(glm::dmat3(glm::dmat4(fromPenumbra(light.shape.worldFromLight)))) *
-                                glm::dvec3(-beside_m, -4, 0);
+        const glm::dvec3 down =
+            glm::transpose(glm::dmat3(glm::dmat4(fromPenumbra(light.shape.worldFromLight)))) *
+            glm::dvec3(-beside_m, -4, 0);
         const double candela = light.profile->profile->grid.at(turn * down);
         const double farField = candela * 4 / std::sqrt(distance2) / distance2;
         EXPECT_NEAR(centerLux(light), farField, 0.01 * farField) << beside_m;
@@ -326,7 +325,8 @@ TEST_F(FrameTest, ProfilesOfAllTypesAreReadAsOnTheCpu) {
             light.shape.worldFromLight = place;
             light.emission = {Emission::Unit::candela, glm::vec3(1)};
             light.profile = {.profile = std::make_shared<LightProfile>(profile)};
-            const glm::dvec3 down = glm::transpose(glm::dmat3(glm::dmat4(fromPenumbra(place)))) * glm::dvec3(0, -1, 0);
+            const glm::dvec3 down =
+                glm::transpose(glm::dmat3(glm::dmat4(fromPenumbra(place)))) * glm::dvec3(0, -1, 0);
             const double right = grid.at(down) / 9;
             EXPECT_NEAR(centerLux(light), right, 1e-3 * grid.largest() / 9)
                 << what << " " << aim.x << " " << aim.z;

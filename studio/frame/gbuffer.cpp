@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "src/gl/raster_state.h"
+#include "src/gl/pass.h"
 #include "studio/frame/conversions.h"
 
 namespace penumbra::studio {
@@ -20,9 +20,7 @@ glm::dmat3 cofactors(const glm::dmat3& m) {
 
 GBuffer::GBuffer(gl::ShaderLibrary& shaders)
     : program_(shaders, {"studio/frame/gbuffer.vert.glsl", "studio/frame/gbuffer.frag.glsl"}),
-      glass_(shaders, {"studio/frame/gbuffer.vert.glsl", "studio/frame/glass.frag.glsl"}),
-      vertices_(gl::makeFloatVertexArray(3, 3, 2, 3)),
-      constants_("G-buffer instance") {}
+      glass_(shaders, {"studio/frame/gbuffer.vert.glsl", "studio/frame/glass.frag.glsl"}) {}
 
 void GBuffer::resize(int width_px, int height_px) {
     if (view_.width_px == width_px && view_.height_px == height_px) return;
@@ -51,28 +49,23 @@ void GBuffer::render(const GpuScene& scene, const CameraView& camera, int width_
     view_.viewFromWorld = toPenumbra(glm::mat4(camera.viewFromWorld));
     view_.clipFromView = toPenumbra(glm::mat4(camera.clipFromView));
 
-    gl::beginPass(framebuffer_.name(), {.width_px = width_px,
-                                        .height_px = height_px,
-                                        .depthTest = gl::Compare::greater,
-                                        .depthWrite = true});
-    constexpr std::array<float, 4> zero{};
-    for (GLint buffer = 0; buffer < 5; ++buffer) {
-        glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, buffer, zero.data());
+    gl::RasterState state{
+        .width_px = width_px, .height_px = height_px, .depthTest = gl::Compare::greater, .depthWrite = true};
+    {
+        gl::Pass pass(program_);
+        pass.into(framebuffer_, state).clearDepth(0);
+        constexpr int attachments = 5;
+        for (int i = 0; i < attachments; ++i) pass.clearColor(i, std::array<float, 4>{});
+        draw(pass, scene, camera, false);
     }
-    glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, zero.data());
-
-    program_.use();
-    draw(scene, camera, false);
     if (std::ranges::any_of(scene.drawables(), &GpuScene::Drawable::isGlass)) {
         // What is seen through glass, its light and its shadow, is multiplied by the glass's colour.
-        gl::beginPass(glassFramebuffer_.name(), {.width_px = width_px,
-                                                 .height_px = height_px,
-                                                 .depthTest = gl::Compare::greater,
-                                                 .blend = gl::Blend::product});
-        glass_.use();
-        draw(scene, camera, true);
+        state.depthWrite = false;
+        state.blend = gl::Blend::product;
+        gl::Pass pass(glass_);
+        pass.into(glassFramebuffer_, state);
+        draw(pass, scene, camera, true);
     }
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 InstanceConstants GBuffer::constantsOf(const GpuScene::Drawable& drawable, const CameraView& camera) const {
@@ -85,29 +78,36 @@ InstanceConstants GBuffer::constantsOf(const GpuScene::Drawable& drawable, const
         .worldFromView = glm::inverse(camera.viewFromWorld),
         .viewFromMeshNormal = glm::dmat4(cofactors(glm::dmat3(viewFromMesh))),
         .baseColor = drawable.isGlass() ? glm::vec4(*material.glass, 1) : material.baseColor,
-        .emission = glm::vec4(material.emission_nits, material.emissionTexture >= 0),
-        .alpha = {masked ? material.alphaCutoff : -1, drawable.colorBuffer != 0, 0, 0},
-        .flags = {material.baseColorTexture >= 0, drawable.receives, material.unlit, camera.orthographic},
+        .emission_nits = material.emission_nits,
+        .alphaCutoff = masked ? material.alphaCutoff : -1,
+        .hasBaseColorTexture = material.baseColorTexture >= 0,
+        .hasEmissionTexture = material.emissionTexture >= 0,
+        .hasVertexColors = drawable.colorBuffer != 0,
+        .receives = drawable.receives,
+        .isUnlit = material.unlit,
+        .isOrthographic = camera.orthographic,
     };
 }
 
-void GBuffer::draw(const GpuScene& scene, const CameraView& camera, bool glass) {
-    glBindVertexArray(vertices_.name());
-    constants_.bindUniform(0);
+void GBuffer::draw(gl::Pass& pass, const GpuScene& scene, const CameraView& camera, bool glass) const {
     for (const GpuScene::Drawable& drawable : scene.drawables()) {
         if (drawable.isGlass() != glass) continue;
-        constants_.write(constantsOf(drawable, camera));
         const penumbra::Mesh& mesh = *drawable.mesh;
-        gl::attachFloats(vertices_.name(), 0, mesh.positionBuffer(), 3);
-        gl::attachFloats(vertices_.name(), 1, drawable.normals->name(), 3);
-        gl::attachFloats(vertices_.name(), 2, mesh.uvBuffer(), 2);
-        gl::attachFloats(vertices_.name(), 3, drawable.colorBuffer, 3);
-        glVertexArrayElementBuffer(vertices_.name(), mesh.indexBuffer());
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, mesh.positionBuffer());
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, mesh.indexBuffer());
-        glBindTextureUnit(0, scene.texture(drawable.material->baseColorTexture));
-        glBindTextureUnit(1, scene.texture(drawable.material->emissionTexture));
-        glDrawElements(GL_TRIANGLES, GLsizei(mesh.indices().size()), GL_UNSIGNED_INT, nullptr);
+        pass.constants(constantsOf(drawable, camera))
+            .vertices("posMesh", {.buffer = mesh.positionBuffer()})
+            .vertices("normalMesh", *drawable.normals)
+            .vertices("uvMesh", {.buffer = mesh.uvBuffer()})
+            .vertices("colorMesh", {.buffer = drawable.colorBuffer})
+            .indices(mesh.indexBuffer());
+        if (!glass) {
+            pass.bind("Positions", gl::HostBuffer{mesh.positionBuffer()})
+                .bind("Indices", gl::HostBuffer{mesh.indexBuffer()})
+                .bind("baseColorTexture",
+                      gl::TextureRef{.name = scene.texture(drawable.material->baseColorTexture)})
+                .bind("emissionTexture",
+                      gl::TextureRef{.name = scene.texture(drawable.material->emissionTexture)});
+        }
+        pass.drawIndexed(mesh.indices().size());
     }
 }
 

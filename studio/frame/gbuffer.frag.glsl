@@ -2,11 +2,11 @@
 #version 450
 #include "studio/frame/gbuffer_io.h"
 
-layout(std140, binding = 0) uniform InstanceBlock { InstanceConstants instance; };
-layout(std430, binding = 0) readonly buffer Positions { float positions[]; };
-layout(std430, binding = 1) readonly buffer Indices { uint indices[]; };
-layout(binding = 0) uniform sampler2D baseColorTexture;
-layout(binding = 1) uniform sampler2D emissionTexture;
+layout(std140) uniform Constants { InstanceConstants instance; };
+layout(std430) readonly buffer Positions { float positions[]; };
+layout(std430) readonly buffer Indices { uint indices[]; };
+uniform sampler2D baseColorTexture;
+uniform sampler2D emissionTexture;
 
 layout(location = 0) in vec3 posView;
 layout(location = 1) in vec3 normalView;
@@ -26,14 +26,14 @@ vec3 corner(int i) {
 
 void main() {
     vec4 color = instance.baseColor * vec4(vertexColor, 1.0);
-    if (instance.flags.x == 1) color *= texture(baseColorTexture, uv);
-    if (color.a < instance.alpha.x) discard;
+    if (instance.hasBaseColorTexture) color *= texture(baseColorTexture, uv);
+    if (color.a < instance.alphaCutoff) discard;
 
     // The triangle's own normal, from its corners: screen-space derivatives would be noisy far away and at edges.
     mat3 viewFromMesh = mat3(instance.viewFromMesh);
     vec3 geometricView =
         normalize(cross(viewFromMesh * (corner(1) - corner(0)), viewFromMesh * (corner(2) - corner(0))));
-    vec3 towardsCamera = instance.flags.w == 1 ? vec3(0.0, 0.0, 1.0) : -posView;
+    vec3 towardsCamera = instance.isOrthographic ? vec3(0.0, 0.0, 1.0) : -posView;
     if (dot(geometricView, towardsCamera) < 0.0) geometricView = -geometricView;
     // Interpolated normals may vanish; then the triangle's serves.
     vec3 shadingView = dot(normalView, normalView) > 0.0 ? normalize(normalView) : geometricView;
@@ -41,8 +41,8 @@ void main() {
 
     geometricNormalWorld = vec4(mat3(instance.worldFromView) * geometricView, 0.0);
     shadingNormalWorld = vec4(mat3(instance.worldFromView) * shadingView, 0.0);
-    albedo = vec4(color.rgb, instance.flags.z == 1 ? 0.0 : 1.0);
-    receives = float(instance.flags.y);
-    emission = vec4(instance.emission.rgb, 1.0);
-    if (instance.emission.a > 0.5) emission.rgb *= texture(emissionTexture, uv).rgb;
+    albedo = vec4(color.rgb, instance.isUnlit ? 0.0 : 1.0);
+    receives = instance.receives ? 1.0 : 0.0;
+    emission = vec4(instance.emission_nits, 1.0);
+    if (instance.hasEmissionTexture) emission.rgb *= texture(emissionTexture, uv).rgb;
 }

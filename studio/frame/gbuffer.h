@@ -3,8 +3,7 @@
 
 #include "penumbra/penumbra.h"
 #include "src/gl/framebuffer.h"
-#include "src/gl/program.h"
-#include "src/gl/vertex_array.h"
+#include "src/gl/pass.h"
 #include "studio/frame/camera_view.h"
 #include "studio/frame/gbuffer_io.h"
 #include "studio/frame/gpu_scene.h"
@@ -29,11 +28,9 @@ class GBuffer {
     void resize(int width_px, int height_px);
 
     InstanceConstants constantsOf(const GpuScene::Drawable& drawable, const CameraView& camera) const;
-    void draw(const GpuScene& scene, const CameraView& camera, bool glass);
+    void draw(gl::Pass& pass, const GpuScene& scene, const CameraView& camera, bool glass) const;
 
     gl::Program program_, glass_;
-    gl::VertexArrayHandle vertices_;
-    gl::ConstantBuffer<InstanceConstants> constants_;
     gl::Texture depth_, geometricNormals_, shadingNormals_, albedo_, receivers_, emission_;
     gl::Framebuffer framebuffer_, glassFramebuffer_;
     View view_;

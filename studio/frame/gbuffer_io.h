@@ -3,23 +3,26 @@
 #ifndef PENUMBRA_GBUFFER_IO_H
 #define PENUMBRA_GBUFFER_IO_H
 
+#include "src/gl/shared_types.h"
+
 #ifdef __cplusplus
-#include <glm/glm.hpp>
 namespace penumbra::studio {
-using glm::ivec4;
-using glm::mat4;
-using glm::vec4;
 #endif
 
-struct InstanceConstants {
+SHARED_STRUCT InstanceConstants {
     mat4 clipFromMesh;
     mat4 viewFromMesh;
     mat4 worldFromView;       // rotates normals
     mat4 viewFromMeshNormal;  // rotates and stretches normals; not unit
     vec4 baseColor;
-    vec4 emission;  // rgb: nits; a: 1 where a texture multiplies them
-    vec4 alpha;     // x: cutoff, or -1 where there is no mask; y: 1 where vertices have colours
-    ivec4 flags;    // x: has a texture; y: receives; z: unlit; w: orthographic view
+    vec3 emission_nits;
+    float alphaCutoff;  // -1 where there is no mask
+    bool32 hasBaseColorTexture;
+    bool32 hasEmissionTexture;  // which multiplies
+    bool32 hasVertexColors;
+    bool32 receives;
+    bool32 isUnlit;
+    bool32 isOrthographic;  // the view
 };
 
 #ifdef __cplusplus

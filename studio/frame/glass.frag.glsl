@@ -3,7 +3,7 @@
 // Panes: blending multiplies what is behind by their colour.
 #include "studio/frame/gbuffer_io.h"
 
-layout(std140, binding = 0) uniform InstanceBlock { InstanceConstants instance; };
+layout(std140) uniform Constants { InstanceConstants instance; };
 
 layout(location = 3) in vec3 vertexColor;
 

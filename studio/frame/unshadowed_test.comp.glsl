@@ -10,7 +10,7 @@ struct Case {
     vec4 normal;  // w: result
     vec4 size;    // xy: half extents; z: radius; w: half angle
 };
-layout(std430, binding = 0) buffer Cases { Case cases[]; };
+layout(std430) buffer Cases { Case cases[]; };
 
 void main() {
     Case c = cases[gl_GlobalInvocationID.x];

@@ -53,6 +53,16 @@ std::string named(const char* what, GLenum name) {
     return text.str();
 }
 
+/// Patterns are read from, and written to, the buffer for pixels where one is bound.
+template <typename Call>
+void withoutBuffer(GLenum target, GLenum binding, Call call) {
+    GLint bound = 0;
+    glGetIntegerv(binding, &bound);
+    glBindBuffer(target, 0);
+    call();
+    glBindBuffer(target, GLuint(bound));
+}
+
 }  // namespace
 
 void captureCompatibilityState(GlState& state) {
@@ -69,7 +79,8 @@ void captureCompatibilityState(GlState& state) {
     for (const Value& transfer : transfers) capture(transfer.name);
     for (const GLenum name : values) capture(name);
     std::array<GLubyte, 128> stipple{};
-    glGetPolygonStipple(stipple.data());
+    withoutBuffer(GL_PIXEL_PACK_BUFFER, GL_PIXEL_PACK_BUFFER_BINDING,
+                  [&] { glGetPolygonStipple(stipple.data()); });
     state["compatibility polygon stipple"].assign(stipple.begin(), stipple.end());
 }
 
@@ -82,7 +93,8 @@ void setOddCompatibilityState() {
     for (const Value& transfer : transfers) glPixelTransferf(transfer.name, transfer.odd);
     glAlphaFunc(GL_NEVER, 0.5f);
     constexpr std::array<GLubyte, 128> nothing{};
-    glPolygonStipple(nothing.data());
+    withoutBuffer(GL_PIXEL_UNPACK_BUFFER, GL_PIXEL_UNPACK_BUFFER_BINDING,
+                  [&] { glPolygonStipple(nothing.data()); });
     glClampColor(GL_CLAMP_FRAGMENT_COLOR, GL_TRUE);
     glClampColor(GL_CLAMP_VERTEX_COLOR, GL_TRUE);
     glMatrixMode(GL_TEXTURE);

@@ -130,9 +130,4 @@ void DepthMap::bindTo(gl::Pass& pass) const {
     pass.bind("depthMaps", maps_).bind("LightCameras", cameras_);
 }
 
-void DepthMap::bind(unsigned unit, unsigned block) const {
-    maps_.bind(unit);
-    cameras_.bind(block);
-}
-
 }  // namespace penumbra

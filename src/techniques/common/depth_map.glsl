@@ -2,13 +2,8 @@
 // Looking things up in depth maps (depth_map.h).
 #include "src/techniques/common/light_camera_io.h"
 
-#ifdef DEPTH_MAP_UNIT
-layout(binding = DEPTH_MAP_UNIT) uniform sampler2DArray depthMaps;
-layout(std430, binding = DEPTH_MAP_BLOCK) readonly buffer LightCameras { LightCameraConstants lightCameras[]; };
-#else
 uniform sampler2DArray depthMaps;
 layout(std430) readonly buffer LightCameras { LightCameraConstants lightCameras[]; };
-#endif
 
 // A point as a light camera sees it.
 struct MapPoint {

@@ -31,8 +31,7 @@ class DepthMap {
     void render(std::span<const Caster> casters, const LightSpaceScene& scene,
                 std::span<const LightCamera> cameras, int mapSize_px, Surface surface = Surface::nearest);
 
-    /// Binds the maps to texture unit `unit` and their cameras to storage block `block`.
-    void bind(unsigned unit, unsigned block) const;
+    /// Gives a pass the maps and their cameras (depth_map.glsl).
     void bindTo(gl::Pass& pass) const;
 
     const gl::Texture& texture() const { return maps_; }

@@ -3,10 +3,10 @@
 // coordinates small wherever in the world the light stands.
 #include "src/techniques/common/view_io.h"
 
-layout(std140, binding = 0) uniform ViewBlock { ViewConstants view; };
-layout(binding = 0) uniform sampler2D viewDepth;
-layout(binding = 1) uniform sampler2D viewNormals;
-layout(binding = 2) uniform sampler2D viewReceivers;
+layout(std140) uniform ViewBlock { ViewConstants view; };
+uniform sampler2D viewDepth;
+uniform sampler2D viewNormals;
+uniform sampler2D viewReceivers;
 
 struct Receiver {
     vec3 posLight;

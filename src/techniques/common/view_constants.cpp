@@ -53,25 +53,12 @@ void ViewBinding::bindTo(gl::Pass& pass) const {
         .bind("viewReceivers", gl::TextureRef{.name = receivers_});
 }
 
-void ViewBinding::bind(const View& view, const glm::dmat4& lightFromWorldMatrix) {
-    fill(view, lightFromWorldMatrix);
-    constants_.bindUniform(0);
-    glBindTextureUnit(0, view.depthTexture);
-    glBindTextureUnit(1, view.normalTexture);
-    glBindTextureUnit(2, view.receiverTexture);
-}
-
 gl::TextureRef imageOf(const VisibilityBuffer& out) {
     VisibilityBuffer::Internals& internals = out.internals();
     return {.name = out.texture(),
             .format = out.colored() ? gl::Format::rgba16f : gl::Format::r32f,
             .isLayered = false,
             .record = &internals.written};
-}
-
-void bindVisibility(const VisibilityBuffer& out, unsigned unit) {
-    glBindImageTexture(unit, out.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY,
-                       out.colored() ? GL_RGBA16F : GL_R32F);
 }
 
 std::vector<PassTime> passTimes(const gl::PassTimers& timers) {

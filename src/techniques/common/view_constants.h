@@ -21,9 +21,6 @@ class ViewBinding {
     void fill(const View& view, const glm::dmat4& lightFromWorld);
     void bindTo(gl::Pass& pass) const;
 
-    /// Fills and binds uniform block 0 and texture units 0 to 2.
-    void bind(const View& view, const glm::dmat4& lightFromWorld);
-
   private:
     gl::ConstantBuffer<ViewConstants> constants_;
     GLuint depth_ = 0, normals_ = 0, receivers_ = 0;
@@ -31,9 +28,6 @@ class ViewBinding {
 
 /// `out` as an image that passes write.
 gl::TextureRef imageOf(const VisibilityBuffer& out);
-
-/// Binds `out` as image `unit` for a compute shader to write.
-void bindVisibility(const VisibilityBuffer& out, unsigned unit);
 
 /// The passes' newest times, for Technique::statistics.
 std::vector<PassTime> passTimes(const gl::PassTimers& timers);

@@ -46,7 +46,7 @@ LightPoints::LightPoints(Device& device)
               .height_px = tableRows,
               .format = gl::Format::rgba32f,
               .filter = gl::Filter::linear,
-              .wrap = GL_REPEAT,
+              .wrap = gl::Wrap::repeat,
               .label = "soft-volumes/light table"}) {}
 
 void LightPoints::place(const AreaLight& light, const FrameBinding& binding, int count) {
