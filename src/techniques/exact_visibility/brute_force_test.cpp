@@ -26,7 +26,7 @@ std::string textOf(const fs::path& file) {
     return text.str();
 }
 
-/// The library's shaders, with a pass for candidates that culls nothing.
+/// The library's shaders, with passes that leave nothing out.
 class BruteForceShaders {
   public:
     BruteForceShaders()
@@ -39,19 +39,27 @@ class BruteForceShaders {
             fs::create_directories(target.parent_path());
             fs::copy_file(entry.path(), target, fs::copy_options::overwrite_existing);
         }
-        const fs::path candidates = folder_ / "src/techniques/exact_visibility/candidates.comp.glsl";
-        std::string text = textOf(candidates);
-        const std::size_t place = text.find("void main()");
-        text.insert(place,
-                    "#define mayBlockTile(shaft, sides, bounds, node) true\n"
-                    "#define mayHideFromTile(bounds, sides, triangle) (!isInLightPlane(triangle))\n"
-                    "#define mayReachLight(bounds, boxMin, boxMax) true\n");
-        std::ofstream(candidates) << text;
+        redefine("candidates.comp.glsl", "void main()",
+                 "#define mayBlockTile(shaft, sides, bounds, node) true\n"
+                 "#define mayHideFromTile(bounds, sides, triangle) (!isInLightPlane(triangle))\n"
+                 "#define isSmall(bounds, size, node) false\n"
+                 "#define mayReachLight(bounds, boxMin, boxMax) true\n");
+        redefine("resolve.comp.glsl", "// What turns a box", "#define isAnyOpen(low, high) true\n");
+        redefine("resolve.comp.glsl", "// The next node",
+                 "#define mayBoxHide(projection, normal, apex, boxMin, boxMax) true\n");
     }
     ~BruteForceShaders() { fs::remove_all(folder_); }
     const fs::path& folder() const { return folder_; }
 
   private:
+    /// Puts `definitions` before where `place` first stands in a shader of this room.
+    void redefine(const std::string& shader, const std::string& place, const std::string& definitions) const {
+        const fs::path file = folder_ / "src/techniques/exact_visibility" / shader;
+        std::string text = textOf(file);
+        text.insert(text.find(place), definitions);
+        std::ofstream(file) << text;
+    }
+
     fs::path folder_;
 };
 
@@ -176,8 +184,9 @@ TEST_F(BruteForceTest, GivesTheSameBitsOnSoups) {
     }
 }
 
-// Samples of a sphere are counted on a disk through its middle, which is wider than what a receiver close by sees of
-// the sphere. What stands in between, and hides nothing, is culled as a rule: then there is more light, and rightly.
+// Samples of a sphere are counted on a disk through its middle, which is wider than what a receiver close by
+// sees of the sphere. What stands in between, and hides nothing, is culled as a rule: then there is more
+// light, and rightly.
 TEST_F(BruteForceTest, GivesNoMoreShadowOfSpheresThatTouchWhatTheyLight) {
     for (const std::uint32_t seed : {2u, 6u}) {
         const Scene scene = soup(seed, LightShape::sphere);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
-// For each tile of 8 x 8 receivers, the triangles that may stand between them and the light; and, where there are none
-// and no horizon cuts the light, what its pixels see. One invocation a tile.
+// For each tile of 8 x 8 receivers, the nodes of the tree that may stand between them and the light; and, where there are
+// none and no horizon cuts the light, what its pixels see. One invocation a tile.
 layout(local_size_x = 32) in;
 
 #include "src/techniques/common/view.glsl"
@@ -154,7 +154,22 @@ bool mayHideFromTile(Bounds bounds, Sides sides, uint triangle) {
     return !isBeside && !isUnderfootOfTile(bounds, a, b, c) && !isInLightPlane(triangle);
 }
 
-// Whether a box may reach the light, so that it depends on the sample what blocks.
+// Of what size things are, far from the tile by a metre, between which and the light's samples there is no more to gain
+// from looking at their parts: about two samples apart.
+float wholeSize(Bounds bounds) {
+    float spacing = length(light.uvFromI);
+    if (light.emitter.shape == shapeDistant) return 2.0 * spacing * min(light.emitter.halfSize.x, widestTangent);
+    float distance_m = distance(light.center, 0.5 * (bounds.low + bounds.high));
+    return 2.0 * spacing * min(max(light.emitter.halfSize.x, light.emitter.halfSize.y) / distance_m, widestTangent);
+}
+
+// Whether a node is listed as a whole. Any choice gives the same result.
+bool isSmall(Bounds bounds, float size, TreeNode node) {
+    float away = distance(0.5 * (node.boxMin + node.boxMax), 0.5 * (bounds.low + bounds.high));
+    return 0.5 * distance(node.boxMin, node.boxMax) < size * away;
+}
+
+// Whether a box may reach the light, so that it depends on the sample what blocks; or its plane.
 bool mayReachLight(Bounds bounds, vec3 boxMin, vec3 boxMax) {
     vec3 middle = 0.5 * (boxMin + boxMax) - light.center, extent = 0.5 * (boxMax - boxMin);
     if (light.emitter.shape == shapeDistant) return false;
@@ -163,7 +178,8 @@ bool mayReachLight(Bounds bounds, vec3 boxMin, vec3 boxMax) {
     float reach = length(tileMiddle) + length(tileExtent);
     if (isFlat()) {
         float height = abs(dot(light.axisZ, middle)) - dot(abs(light.axisZ), extent);
-        return height <= 2e-5 * reach;
+        float farthest = length(middle) + length(extent) + length(light.emitter.halfSize);
+        return height <= max(2e-5 * reach, 1.001 * light.planeTolerance * farthest);
     }
     // The sphere's near pole, for receivers whose direction towards the centre differs a little from the tile's.
     float nearest = length(tileMiddle) - length(tileExtent);
@@ -206,24 +222,47 @@ void main() {
 
     Sides sides = sidesOf(bounds);
 
-    // Plain triangles from the front of the tile's part of the lists, those that take a test a sample from its back.
+    // Plain nodes from the front of the tile's part of the lists, those that take a test a sample from its back.
     uint capacity = uint(light.tileCapacity);
     uint first = tile * capacity;
     uint plain = 0u, special = 0u;
+    float size = wholeSize(bounds);
     Walk walk = Walk(bounds.count > 0 && light.nodeCount > 0 ? 0u : EXACT_END, EXACT_END);
+    uint caster = EXACT_INNER;  // whose subtree we are in, as the tree over the casters has it
+    uint node = 0u;             // looked at last,
+    uint triangle = 0u, end = 0u;  // and which of its triangles have not been looked at
+    bool isSpecial = false;
     // Whoever does not get to the end here leaves the rest to the receivers.
     const int longestWalk = 40000;
-    for (int step_ = 0; step_ < min(light.nodeCount, longestWalk) && walk.node != EXACT_END && plain + special < capacity; ++step_) {
-        TreeNode node = loadNode(walk.node);
-        bool isHit = mayBlockTile(shaft, sides, bounds, node);
-        if (isHit && isTriangle(node) && mayHideFromTile(bounds, sides, node.leaf & ~EXACT_MASKED)) {
-            bool isSpecial = (node.leaf & EXACT_MASKED) != 0u || mayReachLight(bounds, node.boxMin, node.boxMax);
+    for (int step_ = 0; triangle < end || (step_ < longestWalk && walk.node != EXACT_END && plain + special < capacity); ++step_) {
+        bool lists = triangle < end;
+        if (lists) {
+            lists = mayHideFromTile(bounds, sides, triangle);
+            ++triangle;
+        } else {
+            node = walk.node;
+            TreeNode visited = loadNode(node);
+            bool isHit = mayBlockTile(shaft, sides, bounds, visited);
+            isSpecial = (caster & EXACT_MASKED) != 0u || mayReachLight(bounds, visited.boxMin, visited.boxMax);
+            lists = isHit && visited.leaf == EXACT_INNER && caster != EXACT_INNER && isSmall(bounds, size, visited);
+            if (isHit && hasTriangles(visited)) {
+                triangle = firstTriangle(visited.leaf);
+                end = triangle + triangleCount(visited.leaf);
+            }
+            bool enters = isHit && !lists;
+            bool leaves = visited.skip == EXACT_END && !(enters && visited.leaf == EXACT_INNER);
+            walk = advance(walk, visited, enters);
+            bool isCaster = visited.leaf != EXACT_INNER && (visited.leaf & EXACT_SUBTREE) != 0u;
+            if (isCaster) caster = enters ? visited.leaf : EXACT_INNER;
+            else if (leaves) caster = EXACT_INNER;
+        }
+        if (lists) {
             uint place = isSpecial ? capacity - 1u - special : plain;
-            candidates[first + place] = node.leaf;
+            candidates[first + place] = node;
             plain += isSpecial ? 0u : 1u;
             special += isSpecial ? 1u : 0u;
+            triangle = end;
         }
-        walk = advance(walk, node, isHit);
     }
     tileLists[tile] = TileList(plain, special, walk.node, walk.returnTo);
 

@@ -67,7 +67,7 @@ void CasterSoup::Entry::take(const Caster& caster) {
     if (!sameTriangles || shape.nodes.empty()) {
         std::vector<TreeBox> meshBoxes(indices.size() / 3);
         for (std::size_t i = 0; i < indices.size(); ++i) meshBoxes[i / 3].add(toGlm(positions[indices[i]]));
-        shape = buildTree(meshBoxes);
+        shape = buildTree(meshBoxes, EXACT_LEAF_TRIANGLES);
     }
 }
 
@@ -80,9 +80,12 @@ void CasterSoup::Entry::place(const glm::dvec3& origin) {
     });
     corners.resize(indices.size());
     std::vector<TreeBox> leaves(indices.size() / 3);
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-        corners[i] = posScene[indices[i]];
-        leaves[i / 3].add(corners[i]);
+    for (std::size_t place = 0; place < leaves.size(); ++place) {
+        const std::size_t triangle = shape.order[place];
+        for (std::size_t k = 0; k < 3; ++k) {
+            corners[3 * place + k] = posScene[indices[3 * triangle + k]];
+            leaves[triangle].add(corners[3 * place + k]);
+        }
     }
     boxes = refitTree(shape, leaves);
 }
@@ -156,10 +159,10 @@ void CasterSoup::send(Entry& entry) {
         const bool last = node.skip == entry.boxes.size();
         texels.push_back(
             texel(entry.boxes[i].min, last ? EXACT_END : std::uint32_t(entry.firstNode) + node.skip));
-        const std::uint32_t leaf = std::uint32_t(entry.firstTriangle) + node.leaf;
-        texels.push_back(texel(entry.boxes[i].max, node.leaf == TreeShape::inner ? EXACT_INNER
-                                                   : entry.mask >= 0             ? leaf | EXACT_MASKED
-                                                                                 : leaf));
+        const std::uint32_t leaf = (std::uint32_t(entry.firstTriangle) + node.first) |
+                                   (node.count - 1) << EXACT_COUNT_SHIFT |
+                                   (entry.mask >= 0 ? EXACT_MASKED : 0);
+        texels.push_back(texel(entry.boxes[i].max, node.count == 0 ? EXACT_INNER : leaf));
     }
     nodes_.write(texels, 2 * entry.firstNode);
 
@@ -176,7 +179,8 @@ void CasterSoup::send(Entry& entry) {
             return vertex < entry.uvs.size() ? glm::vec2(entry.uvs[vertex].x, entry.uvs[vertex].y)
                                              : glm::vec2(0);
         };
-        for (std::size_t i = 0; i < entry.indices.size(); i += 3) {
+        for (const std::uint32_t triangle : entry.shape.order) {
+            const std::size_t i = 3 * std::size_t(triangle);
             texels.push_back(texel({uv(i), uv(i + 1).x}, std::bit_cast<std::uint32_t>(uv(i + 1).y)));
             texels.push_back(texel({uv(i + 2), 0}, std::uint32_t(entry.mask)));
         }
@@ -188,16 +192,18 @@ void CasterSoup::send(Entry& entry) {
 void CasterSoup::sendTop() {
     std::vector<TreeBox> roots;
     for (const Entry& entry : entries_) roots.push_back(entry.boxes.front());
-    const TreeShape shape = buildTree(roots);
+    const TreeShape shape = buildTree(roots, 1);
     const std::vector<TreeBox> boxes = refitTree(shape, roots);
     std::vector<glm::uvec4> texels;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const TreeShape::Node& node = shape.nodes[i];
         texels.push_back(texel(boxes[i].min, node.skip == boxes.size() ? EXACT_END : node.skip));
-        texels.push_back(
-            texel(boxes[i].max, node.leaf == TreeShape::inner
-                                    ? EXACT_INNER
-                                    : EXACT_SUBTREE | std::uint32_t(entries_[node.leaf].firstNode)));
+        std::uint32_t leaf = EXACT_INNER;
+        if (node.count > 0) {
+            const Entry& entry = entries_[shape.order[node.first]];
+            leaf = EXACT_SUBTREE | (entry.mask >= 0 ? EXACT_MASKED : 0) | std::uint32_t(entry.firstNode);
+        }
+        texels.push_back(texel(boxes[i].max, leaf));
     }
     nodes_.write(texels, 0);
 }

@@ -51,7 +51,7 @@ class CasterSoup {
 
         TreeShape shape;
         std::vector<TreeBox> boxes;      ///< one a node
-        std::vector<glm::vec3> corners;  ///< three a triangle
+        std::vector<glm::vec3> corners;  ///< three a triangle, in the order of the tree
         bool isSent = false;
         std::size_t firstNode = 0, firstTriangle = 0, firstMasked = 0;
 

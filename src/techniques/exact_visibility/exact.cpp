@@ -9,8 +9,8 @@
 #include <string>
 
 #include "penumbra/light_plane.h"
-#include "src/gl/pass.h"
 #include "src/device/glm_types.h"
+#include "src/gl/pass.h"
 #include "src/techniques/common/light_constants.h"
 
 namespace penumbra {
@@ -57,7 +57,7 @@ void ExactVisibility::describe(ParameterVisitor& visitor) {
                     .help = "what each part of the light counts: its area, or what it sends to the surface"},
                    weight_, weights);
     visitor.integer({.name = "tile_candidates",
-                     .unit = "triangles",
+                     .unit = "nodes",
                      .help = "room for each 8 x 8 pixels; those with more take longer, and give the same"},
                     tileCapacity_, {1, 65536});
     visitor.integer({.name = "round_work",

@@ -12,8 +12,11 @@ namespace penumbra {
 // Nodes of the tree: what stands in the fourth words.
 #define EXACT_END 0xffffffffu      // skip: the tree, or a caster's subtree, ends here
 #define EXACT_INNER 0xffffffffu    // leaf: none; the first child is the next node
-#define EXACT_SUBTREE 0x80000000u  // leaf: a caster's subtree begins at the node in the other bits
-#define EXACT_MASKED 0x40000000u   // leaf: the triangle in the other bits has holes
+#define EXACT_SUBTREE 0x80000000u  // leaf: a caster's subtree begins at the node in the lowest bits
+#define EXACT_MASKED 0x40000000u   // leaf: the caster or its triangles have holes
+#define EXACT_COUNT_SHIFT 28       // leaf: two bits from here on are the number of its triangles, less one;
+#define EXACT_FIRST 0x0fffffffu    // these, its first triangle
+#define EXACT_LEAF_TRIANGLES 4     // at most
 
 #define EXACT_MAX_ROWS 24     // of a lattice, and bits in a row
 #define EXACT_MAX_LATTICES 4  // what more than 256 samples are split into
@@ -22,7 +25,7 @@ namespace penumbra {
 
 #define EXACT_GROUPS_ACROSS 32768u  // in the x direction of a dispatch
 
-#define EXACT_STATE_WORDS 13  // of a receiver whose work is not done, before the rows
+#define EXACT_STATE_WORDS 12  // of a receiver whose work is not done, before the rows
 
 /// In scene space: the world's axes, moved.
 SHARED_STRUCT ExactLight {
@@ -49,8 +52,8 @@ SHARED_STRUCT ExactLight {
     uvec4 valid[EXACT_MAX_LATTICES * EXACT_MAX_ROWS / 4];  // bit i of row j: (i, j) is a sample
 };
 
-/// A tile's part of the lists: plain candidates from its front, those that take a look at each sample from
-/// its back.
+/// A tile's part of the lists of nodes: plain candidates from its front, those whose triangles may take a
+/// look at each sample from its back.
 SHARED_STRUCT TileList {
     uint plain, special;       // how many
     uint stoppedAt, returnTo;  // where the walk through the tree stopped for want of room (see Walk)

@@ -105,6 +105,7 @@ struct SeenLight {
 };
 
 const float wideCosine = 0.5;
+const float widestTangent = 1.41421356;  // the samples lie in a disk: it goes around the square face of a cube
 const float pointTangent = 1e-3;  // the size of the window in whose centre a light of size zero lies
 
 SeenLight seeLight(vec3 apex) {
@@ -147,8 +148,7 @@ Patch patchOf(SeenLight seen, int face, vec3 normal, vec3 toSurface) {
     vec3 x = perpendicularTo(seen.axis), y = cross(seen.axis, x), z = seen.axis;
     float window = seen.tangent;
     if (seen.patches == 6) {
-        // The samples lie in a disk: it goes around the square face.
-        window = 1.41421356;
+        window = widestTangent;
         vec3 axis = face < 2 ? z : face < 4 ? x : y;
         vec3 across = face < 2 ? x : face < 4 ? y : z;
         z = (face & 1) == 0 ? axis : -axis;
@@ -179,7 +179,7 @@ float endOfRay(SeenLight seen, vec3 direction) {
 float coneWeight(SeenLight seen, vec2 uv, vec3 direction) {
     float inverseLength = inversesqrt(dot(direction, direction));
     if (seen.patches == 6) {
-        if (max(abs(uv.x), abs(uv.y)) * 1.41421356 > 1.0) return 0.0;
+        if (max(abs(uv.x), abs(uv.y)) * widestTangent > 1.0) return 0.0;
         if (dot(direction, seen.axis) * inverseLength < seen.cosine) return 0.0;
     }
     return inverseLength * inverseLength * inverseLength;

@@ -53,6 +53,7 @@ uint unlit[ROWS];
 struct Blocker {
     vec3 a, b, c;           // scene axes, metres
     vec3 uvwA, uvwB, uvwC;  // as the patch has it
+    vec3 onA, onB, onC;     // lattice coordinates
 };
 
 vec3 uvwOf(Patch patch_, vec3 v) {
@@ -60,7 +61,12 @@ vec3 uvwOf(Patch patch_, vec3 v) {
     return uvw;
 }
 
-Blocker loadBlocker(uint triangle, vec3 apex, Patch patch_) {
+vec3 latticeOf(vec3 uvw, vec2 offset) {
+    precise vec3 lattice = vec3(uvw.x * light.latticeFromU + uvw.y * light.latticeFromV + uvw.z * offset, uvw.z);
+    return lattice;
+}
+
+Blocker loadBlocker(uint triangle, vec3 apex, Patch patch_, vec2 offset) {
     Blocker blocker;
     blocker.a = loadCorner(triangle, 0u) - apex;
     blocker.b = loadCorner(triangle, 1u) - apex;
@@ -68,11 +74,72 @@ Blocker loadBlocker(uint triangle, vec3 apex, Patch patch_) {
     blocker.uvwA = uvwOf(patch_, blocker.a);
     blocker.uvwB = uvwOf(patch_, blocker.b);
     blocker.uvwC = uvwOf(patch_, blocker.c);
+    blocker.onA = latticeOf(blocker.uvwA, offset);
+    blocker.onB = latticeOf(blocker.uvwB, offset);
+    blocker.onC = latticeOf(blocker.uvwC, offset);
     return blocker;
 }
 
-// False only if it hides no sample: beside the window on one side, behind the receiver, below its horizon, behind a
-// flat light.
+// The columns between low.x and high.x of row j in which samples can still be seen, if the row is between low.y and high.y.
+uint openInRow(uint columns, vec2 low, vec2 high, int j) {
+    if (j >= ROWS) return 0u;
+    return float(j) >= low.y && float(j) <= high.y ? columns & ~hidden[min(j, ROWS - 1)] : 0u;
+}
+uint openInRows(uint columns, vec2 low, vec2 high, int j) {
+    return openInRow(columns, low, high, j) | openInRow(columns, low, high, j + 1) |
+           openInRow(columns, low, high, j + 2) | openInRow(columns, low, high, j + 3);
+}
+
+// Whether samples can still be seen within a rectangle of the lattice, made larger by the rounding of where edges meet rows.
+bool isAnyOpen(vec2 low, vec2 high) {
+    vec2 margin = 1e-5 * (max(abs(low), abs(high)) + 1.0);
+    low -= margin;
+    high += margin;
+    uint columns = bitsBefore(floor(high.x) + 1.0) & ~bitsBefore(low.x);
+    return (openInRows(columns, low, high, 0) | openInRows(columns, low, high, 4) | openInRows(columns, low, high, 8) |
+            openInRows(columns, low, high, 12) | openInRows(columns, low, high, 16) |
+            openInRows(columns, low, high, 20)) != 0u;
+}
+
+// Of coordinates: more than ten roundings.
+const float boxRounding = 2e-6;
+
+// What turns a box around blockers into a rectangle around the samples that they may hide.
+struct Projection {
+    vec3 x, y, w;  // lattice coordinates from a vector that begins at the receiver
+    vec3 rounding; // of x and y
+};
+
+Projection projectionOf(Patch patch_, vec2 offset) {
+    vec2 u = light.latticeFromU, v = light.latticeFromV;
+    vec3 sizeX = abs(patch_.rowU) * abs(u.x) + abs(patch_.rowV) * abs(v.x) + abs(patch_.rowW) * abs(offset.x);
+    vec3 sizeY = abs(patch_.rowU) * abs(u.y) + abs(patch_.rowV) * abs(v.y) + abs(patch_.rowW) * abs(offset.y);
+    return Projection(patch_.rowU * u.x + patch_.rowV * v.x + patch_.rowW * offset.x,
+                      patch_.rowU * u.y + patch_.rowV * v.y + patch_.rowW * offset.y, patch_.rowW,
+                      boxRounding * max(sizeX, sizeY));
+}
+
+// False only if nothing in the box hides a sample that can still be seen.
+bool mayBoxHide(Projection projection, vec3 normal, vec3 apex, vec3 boxMin, vec3 boxMax) {
+    vec3 low = boxMin - apex, high = boxMax - apex;
+    vec3 middle = 0.5 * (low + high), extent = 0.5 * (high - low);
+    vec3 size = max(abs(low), abs(high));
+    vec3 padded = extent + boxRounding * size;
+    float around = dot(projection.rounding, size);
+    vec3 from = vec3(dot(projection.x, middle), dot(projection.y, middle), dot(projection.w, middle));
+    vec3 to = vec3(dot(abs(projection.x), extent) + around, dot(abs(projection.y), extent) + around,
+                   dot(abs(projection.w), padded));
+    vec3 least = from - to, most = from + to;
+    bool isAbove = dot(normal, middle) + dot(abs(normal), padded) > 0.0;
+    bool reachesBehind = least.z <= 0.0;
+    vec2 inverse = 1.0 / vec2(max(least.z, 1e-30), max(most.z, 1e-30));
+    vec2 nearLow = mix(inverse.yy, inverse.xx, lessThan(least.xy, vec2(0.0)));
+    vec2 nearHigh = mix(inverse.xx, inverse.yy, lessThan(most.xy, vec2(0.0)));
+    return isAbove && most.z > 0.0 && (reachesBehind || isAnyOpen(least.xy * nearLow, most.xy * nearHigh));
+}
+
+// False only if it hides no sample that can still be seen: beside the window on one side, behind the receiver, below its
+// horizon, behind a flat light, between the samples.
 bool mayHide(Blocker t, vec3 normal) {
     vec3 u = vec3(t.uvwA.x, t.uvwB.x, t.uvwC.x);
     vec3 v = vec3(t.uvwA.y, t.uvwB.y, t.uvwC.y);
@@ -81,12 +148,10 @@ bool mayHide(Blocker t, vec3 normal) {
     bool beside = all(greaterThan(u, w)) || all(greaterThan(-u, w)) || all(greaterThan(v, w)) || all(greaterThan(-v, w));
     bool behind = all(lessThanEqual(w, vec3(0.0))) || all(lessThanEqual(height, vec3(0.0)));
     bool beyond = isFlat() && all(greaterThanEqual(w, vec3(rayEnd)));
-    return !(beside || behind || beyond);
-}
-
-vec3 latticeOf(vec3 uvw, vec2 offset) {
-    precise vec3 lattice = vec3(uvw.x * light.latticeFromU + uvw.y * light.latticeFromV + uvw.z * offset, uvw.z);
-    return lattice;
+    bool reachesBehind = min(w.x, min(w.y, w.z)) <= 0.0;
+    vec3 inverse = 1.0 / max(w, 1e-30);
+    vec2 a = t.onA.xy * inverse.x, b = t.onB.xy * inverse.y, c = t.onC.xy * inverse.z;
+    return !(beside || behind || beyond) && (reachesBehind || isAnyOpen(min(a, min(b, c)), max(a, max(b, c))));
 }
 
 vec2 uvOf(vec2 ij, vec2 offset) {
@@ -107,14 +172,13 @@ void projectRows(vec3 a, vec3 b, vec3 c, int j) {
     projectRow(a, b, c, j + 2);
     projectRow(a, b, c, j + 3);
 }
-void project(Blocker t, vec2 offset) {
-    vec3 a = latticeOf(t.uvwA, offset), b = latticeOf(t.uvwB, offset), c = latticeOf(t.uvwC, offset);
-    projectRows(a, b, c, 0);
-    projectRows(a, b, c, 4);
-    projectRows(a, b, c, 8);
-    projectRows(a, b, c, 12);
-    projectRows(a, b, c, 16);
-    projectRows(a, b, c, 20);
+void project(Blocker t) {
+    projectRows(t.onA, t.onB, t.onC, 0);
+    projectRows(t.onA, t.onB, t.onC, 4);
+    projectRows(t.onA, t.onB, t.onC, 8);
+    projectRows(t.onA, t.onB, t.onC, 12);
+    projectRows(t.onA, t.onB, t.onC, 16);
+    projectRows(t.onA, t.onB, t.onC, 20);
 }
 
 void hide(bool counts) {
@@ -128,7 +192,7 @@ bool isAllHidden() {
 }
 
 // The same for a triangle that has holes, or may stand at the light: each sample that it seems to hide is looked at.
-void hideSamples(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint leaf, bool counts) {
+void hideSamples(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint triangle, bool hasHoles, bool counts) {
     vec3 normal = cross(t.b - t.a, t.c - t.a);
     float height = dot(normal, t.a);
     vec3 acrossA = cross(t.b, t.c), acrossB = cross(t.c, t.a), acrossC = cross(t.a, t.b);
@@ -146,9 +210,9 @@ void hideSamples(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint leaf
             float w = clamp(height / dot(normal, direction), nearest, farthest);
             bool blocks = w < endOfRay(seen, direction);
 #ifdef WITH_HOLES
-            if ((leaf & EXACT_MASKED) != 0u) {
+            if (hasHoles) {
                 vec3 share = vec3(dot(acrossA, direction), dot(acrossB, direction), dot(acrossC, direction));
-                blocks = blocks && isSolid(leaf & ~EXACT_MASKED, share / (share.x + share.y + share.z));
+                blocks = blocks && isSolid(triangle, share / (share.x + share.y + share.z));
             }
 #endif
             uint bit = bits & (0u - bits);
@@ -160,8 +224,8 @@ void hideSamples(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint leaf
 }
 
 // Whether the triangle blocks whatever it covers, without a look at each sample.
-bool isPlain(Blocker t, SeenLight seen, uint leaf) {
-    if ((leaf & EXACT_MASKED) != 0u) return false;
+bool isPlain(Blocker t, SeenLight seen, bool hasHoles) {
+    if (hasHoles) return false;
     if (light.emitter.shape == shapeDistant) return true;
     if (isFlat()) return max(t.uvwA.z, max(t.uvwB.z, t.uvwC.z)) < rayEnd;
     float farthest_m = max(dot(seen.axis, t.a), max(dot(seen.axis, t.b), dot(seen.axis, t.c)));
@@ -243,49 +307,67 @@ void addUp(inout Sums sums, SeenLight seen, Patch patch_, vec3 normal, int latti
     }
 }
 
-// A place in the work of a receiver.
+// A place in the work of a receiver. The tile's list is gone through from the plain nodes to the special ones, each with
+// all below it, and then what of the tree did not fit into it.
 struct Progress {
-    int part;  // which group, of which lattice, of which patch
-    uint next, special;  // candidates
-    Walk walk;
+    int part;   // which group, of which lattice, of which patch
+    uint next;  // of the list; one more than it has where we are beyond it
+    Walk walk;  // below a node of the list: returnTo is where that ends
 };
 
-bool isOver(Progress progress, TileList list) {
-    return progress.next >= list.plain && progress.special >= list.special && progress.walk.node == EXACT_END;
+Progress startOf(int part, uint next) { return Progress(part, next, Walk(0u, 0u)); }
+
+bool isBetweenNodes(Progress progress) { return progress.walk.node == progress.walk.returnTo; }
+bool isPlainOver(Progress progress, TileList list) {
+    return progress.next > list.plain || (progress.next == list.plain && isBetweenNodes(progress));
 }
+bool isListOver(Progress progress, TileList list) { return progress.next > list.plain + list.special; }
+bool isOver(Progress progress, TileList list) {
+    return isListOver(progress, list) && progress.walk.node == EXACT_END;
+}
+
+// To what did not fit into the list, where that is at its end.
+Progress leaveList(Progress progress, TileList list) {
+    if (progress.next != list.plain + list.special || !isBetweenNodes(progress)) return progress;
+    return Progress(progress.part, progress.next + 1u, Walk(list.stoppedAt, list.returnTo));
+}
+
+// Triangles of a leaf that have not been looked at.
+struct Leaf {
+    uint next, end;
+    bool hasHoles;
+};
 
 void save(uint base, Progress progress, Sums sums) {
     states[base] = uint(progress.part) + 1u;
     states[base + 1u] = progress.next;
-    states[base + 2u] = progress.special;
-    states[base + 3u] = progress.walk.node;
-    states[base + 4u] = progress.walk.returnTo;
+    states[base + 2u] = progress.walk.node;
+    states[base + 3u] = progress.walk.returnTo;
     for (int i = 0; i < 3; ++i) {
-        states[base + 5u + uint(i)] = floatBitsToUint(sums.seen[i]);
-        states[base + 8u + uint(i)] = floatBitsToUint(sums.whole[i]);
+        states[base + 4u + uint(i)] = floatBitsToUint(sums.seen[i]);
+        states[base + 7u + uint(i)] = floatBitsToUint(sums.whole[i]);
     }
-    states[base + 11u] = floatBitsToUint(sums.borders);
-    states[base + 12u] = floatBitsToUint(sums.samples);
+    states[base + 10u] = floatBitsToUint(sums.borders);
+    states[base + 11u] = floatBitsToUint(sums.samples);
     for (int j = 0; j < ROWS; ++j) states[base + uint(EXACT_STATE_WORDS + j)] = hidden[j];
 }
 
 void load(uint base, out Progress progress, out Sums sums) {
     progress.part = int(states[base]) - 1;
     progress.next = states[base + 1u];
-    progress.special = states[base + 2u];
-    progress.walk = Walk(states[base + 3u], states[base + 4u]);
+    progress.walk = Walk(states[base + 2u], states[base + 3u]);
     for (int i = 0; i < 3; ++i) {
-        sums.seen[i] = uintBitsToFloat(states[base + 5u + uint(i)]);
-        sums.whole[i] = uintBitsToFloat(states[base + 8u + uint(i)]);
+        sums.seen[i] = uintBitsToFloat(states[base + 4u + uint(i)]);
+        sums.whole[i] = uintBitsToFloat(states[base + 7u + uint(i)]);
     }
-    sums.borders = uintBitsToFloat(states[base + 11u]);
-    sums.samples = uintBitsToFloat(states[base + 12u]);
+    sums.borders = uintBitsToFloat(states[base + 10u]);
+    sums.samples = uintBitsToFloat(states[base + 11u]);
 }
 
 // In which of the group's turns a triangle is looked at: one with holes when its texture is bound, all others first.
 bool belongsTo(int group, uint leaf) {
 #ifdef WITH_HOLES
-    return round_.groups == 1 || ((leaf & EXACT_MASKED) != 0u ? groupOf(leaf & ~EXACT_MASKED) : 0) == group;
+    return round_.groups == 1 || ((leaf & EXACT_MASKED) != 0u ? groupOf(firstTriangle(leaf)) : 0) == group;
 #else
     return true;
 #endif
@@ -312,6 +394,43 @@ Shaft shaftFrom(vec3 apex) {
     return shaft;
 }
 
+// The receivers together, and the light as they see it.
+struct Look {
+    Projection projection;
+    Shaft shaft;
+    vec3 normal, apex;
+    TileList list;
+    uint first, last;  // the tile's part of the lists
+    int group;
+};
+
+// The next node on the way: one of the tile's list, or below such a one, or beyond the list; or none, where a leaf has
+// triangles that wait.
+void visitNode(Look look, bool isPlainPart, inout Progress progress, inout Leaf leaf) {
+    bool waits = leaf.next < leaf.end;
+    if (!isPlainPart) progress = leaveList(progress, look.list);
+    bool isListed = isPlainPart || !isListOver(progress, look.list);
+    bool begins = isListed && isBetweenNodes(progress) && !waits;
+    uint place = progress.next < look.list.plain ? look.first + progress.next : look.last - (progress.next - look.list.plain);
+    uint at = begins ? candidates[min(place, look.last)] : progress.walk.node;
+    TreeNode node = loadNode(at == EXACT_END ? 0u : at);
+    bool isHit = mayBoxHide(look.projection, look.normal, look.apex, node.boxMin, node.boxMax);
+    if (!isPlainPart) isHit = isHit && (isListed || mayBlock(look.shaft, node.boxMin, node.boxMax));
+    isHit = anyOfUs(isHit);
+    ++work;
+    if (waits || at == EXACT_END) return;
+    if (begins) {
+        ++progress.next;
+        progress.walk.returnTo = node.skip;
+    }
+    if (isListed) progress.walk.node = isHit && node.leaf == EXACT_INNER ? at + 1u : node.skip;
+    else progress.walk = advance(progress.walk, node, isHit);
+    if (isHit && hasTriangles(node) && (isPlainPart || belongsTo(look.group, node.leaf))) {
+        uint triangle = firstTriangle(node.leaf);
+        leaf = Leaf(triangle, triangle + triangleCount(node.leaf), (node.leaf & EXACT_MASKED) != 0u);
+    }
+}
+
 void main() {
     uint place = gl_WorkGroupID.y * EXACT_GROUPS_ACROSS + gl_WorkGroupID.x;
     if (place >= busy.count) return;
@@ -321,9 +440,8 @@ void main() {
     bool inside = all(lessThan(pixel, view.size_px));
     uint base = uint(min(pixel.y, view.size_px.y - 1) * view.size_px.x + min(pixel.x, view.size_px.x - 1)) * STATE_WORDS;
     TileList list = tileLists[tileIndex];
-    uint first = tileIndex * uint(light.tileCapacity), capacity = uint(light.tileCapacity);
 
-    Progress progress = Progress(0, 0u, 0u, Walk(list.stoppedAt, list.returnTo));
+    Progress progress = startOf(0, 0u);
     Sums sums = Sums(vec3(0.0), vec3(0.0), 0.0, 0.0);
     bool resumes = round_.number > 0;
     if (resumes) {
@@ -354,50 +472,60 @@ void main() {
         for (int j = 0; j < ROWS && resumes; ++j) hidden[j] |= states[base + uint(EXACT_STATE_WORDS + j)];
         resumes = false;
 
-        bool isDark = !isOn || isAllHidden();
-        while (progress.next < list.plain && work < round_.work && anyOfUs(!isDark)) {
-            // The next candidate that matters to anyone.
-            Blocker blocker;
+        uint first = tileIndex * uint(light.tileCapacity);
+        Look look = Look(projectionOf(patch_, offset), shaftFrom(apex), receiver.normalLight, apex, list, first,
+                         first + uint(light.tileCapacity) - 1u, group);
+        if (!isOn) {
+            for (int j = 0; j < ROWS; ++j) hidden[j] = 0xffffffffu;
+        }
+        bool isDark = isAllHidden();
+        Leaf leaf = Leaf(0u, 0u, false);
+        Blocker blocker;
+        while ((leaf.next < leaf.end || (!isPlainOver(progress, list) && work < round_.work)) && anyOfUs(!isDark)) {
+            // The next triangle that matters to anyone.
             bool counts = false;
-            while (progress.next < list.plain && work < round_.work && !anyOfUs(counts)) {
-                blocker = loadBlocker(candidates[first + progress.next], apex, patch_);
-                counts = !isDark && mayHide(blocker, receiver.normalLight);
-                ++progress.next;
+            do {
+                do visitNode(look, true, progress, leaf);
+                while (leaf.next == leaf.end && !isPlainOver(progress, list) && work < round_.work);
+                do {
+                    blocker = loadBlocker(leaf.next, apex, patch_, offset);
+                    counts = leaf.next < leaf.end && mayHide(blocker, receiver.normalLight);
+                    leaf.next = min(leaf.next + 1u, leaf.end);
+                    ++work;
+                } while (leaf.next < leaf.end && !anyOfUs(counts));
                 ++work;
-            }
+            } while (!isPlainOver(progress, list) && work < round_.work && !anyOfUs(counts));
             counts = counts && !isUnderfoot(footing, receiver.normalLight, apex, blocker.a, blocker.b, blocker.c);
-            project(blocker, offset);
+            project(blocker);
             hide(counts);
-            isDark = isDark || isAllHidden();
+            isDark = isAllHidden();
             work += 2 + 2 * ROWS;
         }
 
         // Special candidates, then whatever did not fit into the lists.
-        Shaft shaft = shaftFrom(apex);
-        while (!isOver(progress, list) && work < round_.work && anyOfUs(!isDark)) {
-            // The next triangle that matters to anyone.
+        progress = leaveList(progress, list);
+        while ((leaf.next < leaf.end || (!isOver(progress, list) && work < round_.work)) && anyOfUs(!isDark)) {
             bool counts = false;
-            uint leaf = 0u;
-            Blocker blocker;
-            while (!isOver(progress, list) && work < round_.work && !anyOfUs(counts)) {
-                bool isListed = progress.special < list.special;
-                TreeNode visited = loadNode(isListed ? 0u : progress.walk.node);
-                leaf = isListed ? candidates[first + capacity - 1u - progress.special] : visited.leaf;
-                bool isHit = isListed || anyOfUs(!isDark && mayBlock(shaft, visited.boxMin, visited.boxMax));
-                bool isBlocker = (isListed || (isHit && isTriangle(visited))) && belongsTo(group, leaf);
-                if (!isListed) progress.walk = advance(progress.walk, visited, isHit);
-                progress.special += isListed ? 1u : 0u;
-                blocker = loadBlocker(isBlocker ? leaf & ~EXACT_MASKED : 0u, apex, patch_);
-                counts = isBlocker && !isDark && mayHide(blocker, receiver.normalLight);
-                if (!isListed && counts) counts = !isInLightPlane(leaf & ~EXACT_MASKED);
+            uint triangle = 0u;
+            do {
+                do visitNode(look, false, progress, leaf);
+                while (leaf.next == leaf.end && !isOver(progress, list) && work < round_.work);
+                do {
+                    triangle = leaf.next;
+                    blocker = loadBlocker(triangle, apex, patch_, offset);
+                    counts = triangle < leaf.end && mayHide(blocker, receiver.normalLight);
+                    leaf.next = min(triangle + 1u, leaf.end);
+                    ++work;
+                } while (leaf.next < leaf.end && !anyOfUs(counts));
                 ++work;
-            }
-            counts = counts && !isUnderfoot(footing, receiver.normalLight, apex, blocker.a, blocker.b, blocker.c);
-            project(blocker, offset);
-            bool plain = isPlain(blocker, seen, leaf);
+            } while (!isOver(progress, list) && work < round_.work && !anyOfUs(counts));
+            counts = counts && !isInLightPlane(triangle) &&
+                     !isUnderfoot(footing, receiver.normalLight, apex, blocker.a, blocker.b, blocker.c);
+            project(blocker);
+            bool plain = isPlain(blocker, seen, leaf.hasHoles);
             hide(counts && plain);
-            hideSamples(blocker, seen, patch_, offset, leaf, counts && !plain);
-            isDark = isDark || isAllHidden();
+            hideSamples(blocker, seen, patch_, offset, triangle, leaf.hasHoles, counts && !plain);
+            isDark = isAllHidden();
             work += 4 + 2 * ROWS;
         }
         isPaused = !isOver(progress, list) && anyOfUs(!isDark);
@@ -411,9 +539,7 @@ void main() {
             for (int j = 0; j < ROWS; ++j) hidden[j] = 0u;  // what is saved of a window that has not begun
             work += 32 * ROWS;
         }
-        progress.next = isLast ? 0u : list.plain;
-        progress.special = 0u;
-        progress.walk = Walk(list.stoppedAt, list.returnTo);
+        progress = startOf(progress.part, isLast ? 0u : list.plain);
     }
 
     if (!inside) return;

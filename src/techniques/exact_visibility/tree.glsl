@@ -33,12 +33,14 @@ struct Walk {
 // The next place, after `node` has been looked at.
 Walk advance(Walk walk, TreeNode node, bool isHit) {
     if (isHit && node.leaf == EXACT_INNER) return Walk(walk.node + 1u, walk.returnTo);
-    if (isHit && (node.leaf & EXACT_SUBTREE) != 0u) return Walk(node.leaf & ~EXACT_SUBTREE, node.skip);
+    if (isHit && (node.leaf & EXACT_SUBTREE) != 0u) return Walk(node.leaf & EXACT_FIRST, node.skip);
     if (node.skip == EXACT_END) return Walk(walk.returnTo, EXACT_END);
     return Walk(node.skip, walk.returnTo);
 }
 
-bool isTriangle(TreeNode node) { return node.leaf != EXACT_INNER && (node.leaf & EXACT_SUBTREE) == 0u; }
+bool hasTriangles(TreeNode node) { return node.leaf != EXACT_INNER && (node.leaf & EXACT_SUBTREE) == 0u; }
+uint firstTriangle(uint leaf) { return leaf & EXACT_FIRST; }
+uint triangleCount(uint leaf) { return (leaf >> EXACT_COUNT_SHIFT & 3u) + 1u; }
 
 // All segments between the boxes of receivers and of the light. Along each axis such a segment, at the share t of its
 // length, lies between the boxes' lower sides and between their upper sides at t; a blocker must be in between for one

@@ -16,8 +16,8 @@ float halfArea(const TreeBox& box) {
 
 class Builder {
   public:
-    explicit Builder(std::span<const TreeBox> boxes)
-        : boxes_(boxes), order_(boxes.size()), centers_(boxes.size()) {
+    Builder(std::span<const TreeBox> boxes, std::uint32_t largestLeaf)
+        : boxes_(boxes), largestLeaf_(largestLeaf), order_(boxes.size()), centers_(boxes.size()) {
         std::iota(order_.begin(), order_.end(), 0u);
         std::ranges::transform(boxes, centers_.begin(),
                                [](const TreeBox& box) { return 0.5f * (box.min + box.max); });
@@ -30,7 +30,7 @@ class Builder {
             std::size_t begin, end;
             std::uint32_t closes;  // a node whose subtree is complete, or none
         };
-        constexpr std::uint32_t none = TreeShape::inner;
+        constexpr std::uint32_t none = 0xffffffffu;
         std::vector<Task> stack;
         if (!boxes_.empty()) stack.push_back({0, boxes_.size(), none});
         while (!stack.empty()) {
@@ -39,30 +39,38 @@ class Builder {
             const auto node = std::uint32_t(shape_.nodes.size());
             if (task.closes != none) {
                 shape_.nodes[task.closes].skip = node;
-            } else if (task.end - task.begin == 1) {
-                shape_.nodes.push_back({node + 1, order_[task.begin]});
+            } else if (const std::size_t middle = split(task.begin, task.end); middle == task.end) {
+                shape_.nodes.push_back(
+                    {node + 1, std::uint32_t(task.begin), std::uint32_t(task.end - task.begin)});
             } else {
-                shape_.nodes.push_back({0, TreeShape::inner});
-                const std::size_t middle = split(task.begin, task.end);
+                shape_.nodes.push_back({0, 0, 0});
                 stack.push_back({0, 0, node});
                 stack.push_back({middle, task.end, none});
                 stack.push_back({task.begin, middle, none});
             }
         }
+        shape_.order = std::move(order_);
         return std::move(shape_);
     }
 
   private:
     static constexpr int binCount = 16;
+    /// What it costs to visit both children of a node, in looks at a box of a leaf.
+    static constexpr float visitCost = 2;
     struct Bin {
         TreeBox box;
         std::size_t count = 0;
     };
 
-    /// Orders the range so that two parts stand one after the other; neither is empty.
+    /// Orders the range so that two parts stand one after the other, and says where the second one begins.
+    /// Neither is empty, unless the range had better stay a leaf.
     std::size_t split(std::size_t begin, std::size_t end) {
-        TreeBox centers;
-        for (std::size_t i = begin; i < end; ++i) centers.add(centers_[order_[i]]);
+        if (end - begin == 1) return end;
+        TreeBox centers, whole;
+        for (std::size_t i = begin; i < end; ++i) {
+            centers.add(centers_[order_[i]]);
+            whole.add(boxes_[order_[i]]);
+        }
         const glm::vec3 extent = centers.max - centers.min;
         int bestAxis = -1, bestBin = 0;
         float bestCost = std::numeric_limits<float>::infinity();
@@ -94,6 +102,8 @@ class Builder {
                 if (cost < bestCost) bestCost = cost, bestAxis = axis, bestBin = b;
             }
         }
+        const bool mayStay = end - begin <= largestLeaf_;
+        if (mayStay && halfArea(whole) * (float(end - begin) - visitCost) <= bestCost) return end;
         if (bestAxis < 0) return begin + (end - begin) / 2;  // all in one place
         const auto at = [&](std::size_t i) { return order_.begin() + std::ptrdiff_t(i); };
         const auto middle = std::partition(at(begin), at(end),
@@ -102,6 +112,7 @@ class Builder {
     }
 
     std::span<const TreeBox> boxes_;
+    std::uint32_t largestLeaf_;
     std::vector<std::uint32_t> order_;
     std::vector<glm::vec3> centers_;
     TreeShape shape_;
@@ -109,8 +120,8 @@ class Builder {
 
 }  // namespace
 
-TreeShape buildTree(std::span<const TreeBox> boxes) {
-    return Builder(boxes).build();
+TreeShape buildTree(std::span<const TreeBox> boxes, std::uint32_t largestLeaf) {
+    return Builder(boxes, largestLeaf).build();
 }
 
 std::vector<TreeBox> refitTree(const TreeShape& shape, std::span<const TreeBox> boxes) {
@@ -118,8 +129,8 @@ std::vector<TreeBox> refitTree(const TreeShape& shape, std::span<const TreeBox> 
     // Children stand behind their parents.
     for (std::size_t i = shape.nodes.size(); i-- > 0;) {
         const TreeShape::Node& node = shape.nodes[i];
-        if (node.leaf != TreeShape::inner) {
-            result[i] = boxes[node.leaf];
+        if (node.count > 0) {
+            for (std::uint32_t k = 0; k < node.count; ++k) result[i].add(boxes[shape.order[node.first + k]]);
         } else {
             result[i] = result[i + 1];
             result[i].add(result[shape.nodes[i + 1].skip]);

@@ -24,19 +24,21 @@ struct TreeBox {
     }
 };
 
-/// The shape of a tree over `n` boxes: 2 n - 1 nodes. Says nothing about where the boxes are, so that it can
-/// be kept while they move.
+/// The shape of a tree over `n` boxes: 2 n - 1 nodes at most. Says nothing about where the boxes are, so that
+/// it can be kept while they move.
 struct TreeShape {
-    static constexpr std::uint32_t inner = 0xffffffffu;
     struct Node {
-        std::uint32_t skip;  ///< the next node where this one is not entered; the number of nodes at the end
-        std::uint32_t leaf;  ///< which box, or `inner`: then the first child is the next node
+        std::uint32_t skip;   ///< the next node where this one is not entered; the number of nodes at the end
+        std::uint32_t first;  ///< leaves: their first box's place in `order`
+        std::uint32_t count;  ///< leaves: of boxes; 0: an inner node, whose first child is the next node
     };
     std::vector<Node> nodes;
+    std::vector<std::uint32_t> order;  ///< of the boxes, so that those of a leaf stand side by side
 };
 
-/// Splits by the surface area heuristic over 16 bins (Wald 2007), down to a single box a leaf.
-TreeShape buildTree(std::span<const TreeBox> boxes);
+/// Splits by the surface area heuristic over 16 bins (Wald 2007), down to leaves of at most `largestLeaf`
+/// boxes where that is expected to be cheaper than splitting them.
+TreeShape buildTree(std::span<const TreeBox> boxes, std::uint32_t largestLeaf);
 
 /// The boxes of all nodes, from those of the leaves.
 std::vector<TreeBox> refitTree(const TreeShape& shape, std::span<const TreeBox> boxes);
