@@ -4,10 +4,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <sstream>
 
 #include "studio/image/image_io.h"
@@ -147,6 +149,54 @@ TEST_F(CommandTest, ALightMayHaveATechniqueOfItsOwn) {
     ASSERT_EQ(run(render + "-o " + at("c.png")).exitCode, 0);
     EXPECT_EQ(readPng(at("a.png")).image.values, readPng(at("b.png")).image.values);
     EXPECT_NE(readPng(at("a.png")).image.values, readPng(at("c.png")).image.values);
+}
+
+double meanOf(const Image& image) {
+    return std::accumulate(image.values.begin(), image.values.end(), 0.0) / double(image.values.size());
+}
+
+TEST_F(CommandTest, ExposureIsAutomaticAValueOrAnotherPictures) {
+    const std::string render = "render half-plane -t hard --size 32x32 ";
+    ASSERT_EQ(run(render + "-o " + at("auto.png")).exitCode, 0);
+    const Metadata metadata = readPng(at("auto.png")).metadata;
+    ASSERT_TRUE(metadata.contains("penumbra:exposure_ev"));
+    const double ev = std::stod(metadata.at("penumbra:exposure_ev"));
+    ASSERT_EQ(run(render + "--exposure " + std::to_string(ev + 1) + " -o " + at("darker.png")).exitCode, 0);
+    EXPECT_LT(meanOf(readPng(at("darker.png")).image), 0.9 * meanOf(readPng(at("auto.png")).image));
+    ASSERT_EQ(run(render + "--exposure lock=" + at("auto.png") + " -o " + at("locked.png")).exitCode, 0);
+    const Image locked = readPng(at("locked.png")).image, automatic = readPng(at("auto.png")).image;
+    for (std::size_t i = 0; i < locked.values.size(); ++i)
+        ASSERT_NEAR(locked.values[i], automatic.values[i], 1.01 / 255);
+    ASSERT_EQ(run(render + "--exposure lock=" + at("auto.png") + " -o " + at("linear.exr")).exitCode, 0);
+    EXPECT_EQ(run(render + "--exposure lock=" + at("linear.exr") + " -o " + at("again.png")).exitCode, 0);
+}
+
+TEST_F(CommandTest, WrongExposuresAreRefused) {
+    const std::string render = "render half-plane -t hard --size 8x8 -o " + at("a.png") + " --exposure ";
+    for (const char* wrong : {"bright", "nan", "41", "lock", "1e"})
+        EXPECT_EQ(run(render + wrong).exitCode, 2) << wrong;
+    EXPECT_EQ(run(render + "lock=" + at("nothing.png")).exitCode, 3);
+    writePng(at("plain.png"), Image(4, 4, 3, 0.5f));
+    const Outcome outcome = run(render + "lock=" + at("plain.png"));
+    EXPECT_EQ(outcome.exitCode, 3);
+    EXPECT_NE(outcome.err.find("does not say how it was exposed"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(at("a.png")));
+}
+
+TEST_F(CommandTest, AntialiasingAveragesSamplesOfVisibility) {
+    const std::string render = "render half-plane -t hard --size 32x32 --visibility ";
+    const auto between = [&](const std::string& file) {
+        const Image seen = imageOf(readExr(file), "V");
+        return std::ranges::count_if(seen.values, [](float v) { return v > 0 && v < 1; });
+    };
+    ASSERT_EQ(run(render + at("plain.exr")).exitCode, 0);
+    ASSERT_EQ(run(render + at("smooth.exr") + " --antialias 4 -o " + at("smooth.png")).exitCode, 0);
+    EXPECT_EQ(between(at("plain.exr")), 0);
+    EXPECT_GT(between(at("smooth.exr")), 16);
+    EXPECT_EQ(readPng(at("smooth.png")).image.width_px, 32);
+    for (const char* wrong : {"0", "9", "-1", "x"})
+        EXPECT_EQ(run(render + at("b.exr") + " --antialias " + wrong).exitCode, 2) << wrong;
+    EXPECT_EQ(run("render half-plane -t hard --size 8192x8 --antialias 8 -o " + at("c.png")).exitCode, 2);
 }
 
 TEST_F(CommandTest, UnknownTechniqueIsAnsweredWithTheKnownOnes) {

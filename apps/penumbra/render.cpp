@@ -12,7 +12,9 @@
 #include "apps/penumbra/arguments.h"
 #include "apps/penumbra/asked_for.h"
 #include "apps/penumbra/commands.h"
+#include "apps/penumbra/exposure_argument.h"
 #include "studio/errors.h"
+#include "studio/image/downsample.h"
 #include "studio/image/image_io.h"
 #include "studio/workbench/progress.h"
 #include "studio/workbench/reference_technique.h"
@@ -24,6 +26,9 @@ namespace fs = std::filesystem;
 
 /// From a frame in ten days to more than any machine makes.
 constexpr double slowest_fps = 1e-6, fastest_fps = 1e6;
+
+/// Of --antialias: 64 samples a pixel.
+constexpr int finestAntialias = 8;
 
 /// --frames A-B[xSTEP]
 struct FrameRange {
@@ -71,6 +76,8 @@ struct RenderArguments {
     std::vector<std::string> techniqueOfLight;
     AskedFor askedFor;
     std::vector<std::string> settings;
+    ExposureArgument exposure;
+    int antialias = 1;
     std::string frames;
     double framesPerSecond = 24;
     bool skipExisting = false;
@@ -107,6 +114,13 @@ void writeVisibility(const fs::path& path, const TechniqueResult& result, const 
         picture.channels.push_back({"V", std::vector<float>(result.display.pixelCount(), 1.0f)});
     }
     writeExr(path, picture);
+}
+
+/// The result as if pixels were `factor` times as large.
+void downsample(TechniqueResult& result, int factor) {
+    result.display = downsampledSrgb(std::move(result.display), factor);
+    result.radiance = downsampled(result.radiance, factor);
+    for (LightResult& light : result.lights) light.visibility = downsampled(light.visibility, factor);
 }
 
 nlohmann::ordered_json statisticsJson(const Statistics& statistics) {
@@ -195,9 +209,11 @@ class RenderCommand {
     void run() {
         const PictureSize size = arguments_.scene.pictureSize();
         checkOutputs();
+        const std::optional<float> exposure = arguments_.exposure.value();
         const Scene scene = arguments_.scene.open();
         Workbench workbench(arguments_.scene.device);
-        workbench.requireSize(size);
+        requireSize(workbench, size);
+        workbench.frame().setExposure(exposure);
         const RenderTechniques techniques(workbench, arguments_, scene.at(arguments_.scene.time_s).lights);
         workbench.open(scene);
 
@@ -222,6 +238,17 @@ class RenderCommand {
     struct Outputs {
         fs::path picture, visibility;
     };
+
+    void requireSize(Workbench& workbench, PictureSize size) const {
+        workbench.requireSize(size);
+        const int side_px = std::max(size.width_px, size.height_px);
+        const int most = workbench.device().maxTextureSize_px() / side_px;
+        if (arguments_.antialias > most) {
+            throw UsageError(
+                fmt::format("--antialias {}: the device makes pictures of this size with at most {}",
+                            arguments_.antialias, most));
+        }
+    }
 
     void checkOutputs() const {
         for (const std::string& file : {arguments_.output, arguments_.visibility}) {
@@ -256,17 +283,20 @@ class RenderCommand {
         const double time_s =
             arguments_.frames.empty() ? arguments_.scene.time_s : frame / arguments_.framesPerSecond;
         const SceneMoment moment = scene.at(time_s);
-        const TechniqueResult result = workbench.run(
+        const int factor = arguments_.antialias;
+        TechniqueResult result = workbench.run(
             arguments_.technique, [&](const Light& light) -> Technique& { return techniques.of(light); },
-            moment, arguments_.scene.cameraIn(scene, moment), size);
+            moment, arguments_.scene.cameraIn(scene, moment),
+            {size.width_px * factor, size.height_px * factor});
+        downsample(result, factor);
+        stateExposure(metadata_, result.exposureValue);
         if (!outputs.picture.empty()) writePicture(outputs.picture, result, metadata_);
         if (!outputs.visibility.empty()) writeVisibility(outputs.visibility, result, metadata_);
 
-        nlohmann::ordered_json json = {{"scene", arguments_.scene.scene},
-                                       {"technique", arguments_.technique},
-                                       {"size", {size.width_px, size.height_px}},
-                                       {"time_s", time_s},
-                                       {"lights", nlohmann::json::array()}};
+        nlohmann::ordered_json json = {
+            {"scene", arguments_.scene.scene},         {"technique", arguments_.technique},
+            {"size", {size.width_px, size.height_px}}, {"time_s", time_s},
+            {"exposure_ev", result.exposureValue},     {"lights", nlohmann::json::array()}};
         for (const LightResult& light : result.lights) {
             json["lights"].push_back(
                 {{"light", light.light}, {"statistics", statisticsJson(light.statistics)}});
@@ -307,6 +337,12 @@ void addRender(CLI::App& app, const std::string& commandLine) {
                      "be repeated")
         ->take_all();
     arguments->askedFor.addTo(*command);
+    arguments->exposure.addTo(*command);
+    command
+        ->add_option("--antialias", arguments->antialias,
+                     "N: the mean of N x N samples of shading and visibility a pixel")
+        ->check(CLI::Range(1, finestAntialias))
+        ->capture_default_str();
     command->add_option("--frames", arguments->frames,
                         "A-B or A-BxSTEP: an animation, into numbered files (#### in -o)");
     command->add_option("--fps", arguments->framesPerSecond, "frames for each second of the animation")

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "penumbra/light_plane.h"
 #include "src/gl/pass.h"
@@ -13,6 +14,9 @@
 
 namespace penumbra::studio {
 namespace {
+
+/// Saturation-based exposure values (ISO 12232), of a lens that lets 65 % through.
+constexpr float whiteAtZero_nits = 1.2f;
 
 gl::ShaderLibrary makeShaderLibrary(std::filesystem::path sourceDirectory) {
     gl::ShaderLibrary shaders(std::move(sourceDirectory));
@@ -168,11 +172,16 @@ Image FrameRenderer::readRadiance() const {
 
 const gl::Texture& FrameRenderer::toneMap() {
     const gl::DebugGroup group("tone mapping");
-    gl::Pass(exposureRows_)
-        .bind("unshadowedTexture", unshadowed_)
-        .bind("RowSums", rowSums_)
-        .dispatch(GLuint(display_.height_px()));
-    gl::Pass(exposure_).bind("RowSums", rowSums_).bind("Exposure", exposureResult_).dispatch(1);
+    if (exposureValue_) {
+        const float scale = 1 / (whiteAtZero_nits * std::exp2(*exposureValue_));
+        exposureResult_.write(std::as_bytes(std::span(&scale, 1)));
+    } else {
+        gl::Pass(exposureRows_)
+            .bind("unshadowedTexture", unshadowed_)
+            .bind("RowSums", rowSums_)
+            .dispatch(GLuint(display_.height_px()));
+        gl::Pass(exposure_).bind("RowSums", rowSums_).bind("Exposure", exposureResult_).dispatch(1);
+    }
     gl::Pass(toneMap_)
         .bind("radianceTexture", radiance_)
         .bind("albedoTexture", gbuffer_.albedo())
@@ -183,6 +192,12 @@ const gl::Texture& FrameRenderer::toneMap() {
     // For whoever shows or reads it without a pass.
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
     return display_;
+}
+
+float FrameRenderer::readExposureValue() const {
+    float scale = 1;
+    exposureResult_.read(std::as_writable_bytes(std::span(&scale, 1)));
+    return std::log2(1 / (whiteAtZero_nits * scale));
 }
 
 Image FrameRenderer::readDisplay() {

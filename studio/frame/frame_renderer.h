@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "penumbra/penumbra.h"
 #include "src/gl/shader_library.h"
@@ -41,6 +42,13 @@ class FrameRenderer {
     /// Adds a light times its visibility.
     void addLight(const Light& light, const VisibilityBuffer& visibility);
 
+    /// How bright pictures are: what shows `1.2 * 2^ev` nits as white (exposure value at ISO 100). Without
+    /// one it is chosen anew for each picture, so that the mean of the unshadowed picture is mid-grey,
+    /// whatever the technique.
+    void setExposure(std::optional<float> ev) { exposureValue_ = ev; }
+    /// Of the last toneMap(), chosen or set. Waits for the device.
+    float readExposureValue() const;
+
     /// The picture as shown: exposed, tone mapped, sRGB-encoded RGBA8. Owned by the frame, as are the
     /// textures below; all have the size of the last draw() and are replaced when it changes.
     const gl::Texture& toneMap();
@@ -69,6 +77,7 @@ class FrameRenderer {
     GBuffer gbuffer_;
     gl::Program lighting_, exposureRows_, exposure_, toneMap_;
     gl::Buffer exposureResult_, rowSums_;
+    std::optional<float> exposureValue_;
     gl::Texture radiance_, unshadowed_, illuminance_, reach_, display_;
     const GpuScene* scene_ = nullptr;
     CameraView camera_;

@@ -59,6 +59,7 @@ TechniqueResult Workbench::run(std::string_view name, const TechniqueOf& techniq
         lightResult.reach = frame_.readReach();
     }
     result.display = frame_.readDisplay();
+    result.exposureValue = frame_.readExposureValue();
     result.radiance = frame_.readRadiance();
     return result;
 }

@@ -32,8 +32,9 @@ struct LightResult {
 struct TechniqueResult {
     std::string technique;
     std::vector<LightResult> lights;
-    Image display;   ///< sRGB-encoded RGB in [0, 1]
-    Image radiance;  ///< nits, RGB
+    Image display;            ///< sRGB-encoded RGB in [0, 1]
+    Image radiance;           ///< nits, RGB
+    float exposureValue = 0;  ///< that `display` is shown with: see FrameRenderer::setExposure
 };
 
 /// A device without a window, and a frame on it.
