@@ -180,18 +180,7 @@ TEST_P(MultisampledDepth, HasEverySampleWhereItIs) {
 
 class WrittenByEveryTechnique : public HostInputs, public ::testing::WithParamInterface<std::string> {};
 
-std::vector<std::string> catalogNames() {
-    std::vector<std::string> names;
-    for (const TechniqueInfo& info : techniqueCatalog()) names.emplace_back(info.name);
-    return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Catalog, WrittenByEveryTechnique, ::testing::ValuesIn(catalogNames()),
-                         [](const auto& test) {
-                             std::string name = test.param;
-                             std::erase(name, '-');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Catalog, WrittenByEveryTechnique, everyTechnique(), techniqueTestName);
 
 TEST_P(WrittenByEveryTechnique, TheHostsTextureAndNothingAroundTheRectangle) {
     const ShadowInputs inputs = drawScene({61, 43});  // no multiple of any group's size
@@ -360,6 +349,9 @@ TEST_F(HostInputs, MeshesHaveIdsOfTheirOwn) {
 }
 
 TEST_F(HostInputs, MemoryIsCountedAndGivenBack) {
+    // Its programs are the device's from now on.
+    prewarm(device(), *workbench().makeTechnique("hard"), drawScene());
+    workbench().open(Scene{});
     const std::size_t before = device().memory_bytes();
     {
         const VisibilityBuffer out(device(), 100, 50);

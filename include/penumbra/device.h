@@ -90,7 +90,8 @@ class PENUMBRA_API Device {
     int severeMessageCount() const;
 
     /// What the library's buffers and textures take on this device, those of meshes, techniques and
-    /// visibility buffers included.
+    /// visibility buffers included. Programs, which the device keeps for whichever technique needs them
+    /// again, hold some hundred bytes of constants each.
     std::size_t memory_bytes() const;
 
     /// For a context that is lost, or that was destroyed before the device: from now on OpenGL is not called
@@ -103,11 +104,11 @@ class PENUMBRA_API Device {
     void reloadShaders();
 
     struct Internals;
-    /// Throws Error::Kind::lostContext where the device was moved from.
-    Internals& internals() const;
 
   private:
     explicit Device(std::shared_ptr<Internals> internals);
+    /// Throws Error::Kind::lostContext where the device was moved from.
+    Internals& internals() const;
     std::shared_ptr<Internals> internals_;
     bool isTheHosts_ = true;  ///< what is made on a device may have a Device of its own, to the same end
 };
