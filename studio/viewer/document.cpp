@@ -40,9 +40,10 @@ void Document::editLights(std::vector<Light> lights) {
     update();
 }
 
-void Document::revertLights() {
-    lights_.revert();
-    setTime(time_s());
+void Document::restoreLights(std::shared_ptr<const EditedLights::State> state) {
+    lights_.restore(std::move(state));
+    moment_ = scene_->at(time_s());
+    update();
 }
 
 bool Document::isBuiltin() const {

@@ -7,7 +7,7 @@
 
 #include "studio/frame/gpu_scene.h"
 #include "studio/scene/open_scene.h"
-#include "studio/viewer/light_book.h"
+#include "studio/viewer/edited_lights.h"
 
 namespace penumbra::studio::viewer {
 
@@ -32,7 +32,9 @@ class Document {
     std::uint64_t castersRevision() const { return castersRevision_; }
 
     void editLights(std::vector<Light> lights);
-    void revertLights();
+    void revertLights() { restoreLights(nullptr); }
+    /// As they were when EditedLights::state was this.
+    void restoreLights(std::shared_ptr<const EditedLights::State> state);
     bool isBuiltin() const;
     /// The file that says something about the scene's lights, if it exists; empty for a built-in scene
     /// without
@@ -41,8 +43,8 @@ class Document {
     /// To the sidecar, or NAME.lights.json in the current folder for a built-in scene. Returns the file.
     /// Throws OutputError.
     std::filesystem::path saveLights();
-    LightBook& lights() { return lights_; }
-    const LightBook& lights() const { return lights_; }
+    EditedLights& lights() { return lights_; }
+    const EditedLights& lights() const { return lights_; }
 
   private:
     void update();
@@ -53,7 +55,7 @@ class Document {
     GpuScene gpuScene_;
     SceneMoment moment_;
     Bounds bounds_;
-    LightBook lights_;
+    EditedLights lights_;
     std::uint64_t castersRevision_ = 0;
 };
 

@@ -7,7 +7,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "studio/viewer/light_book.h"
+#include "studio/viewer/edited_lights.h"
 
 namespace penumbra::studio::viewer {
 namespace {

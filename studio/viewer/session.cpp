@@ -96,6 +96,31 @@ void Session::revertLights() {
     changedView();
 }
 
+Work Session::work() {
+    Work now{.lights = document_->lights().state(),
+             .light = choices_.light,
+             .technique = choices_.technique,
+             .other = choices_.other,
+             .techniqueOfLight = choices_.techniqueOfLight,
+             .parameters = techniques_.allChanges()};
+    std::erase_if(now.parameters, [](const auto& technique) { return technique.second.empty(); });
+    return now;
+}
+
+void Session::restore(const Work& work) {
+    choices_.technique = work.technique;
+    choices_.other = work.other;
+    choices_.techniqueOfLight = work.techniqueOfLight;
+    for (const auto& [name, values] : techniques_.allChanges()) {
+        if (!work.parameters.contains(name)) techniques_.set(name, {});
+    }
+    for (const auto& [name, values] : work.parameters) techniques_.set(name, values);
+    choices_.light = work.light;
+    if (work.lights == document_->lights().state()) return changedLighting();
+    document_->restoreLights(work.lights);
+    changedView();
+}
+
 void Session::changedView() {
     viewStale_ = true;
     referenceStale_ = true;

@@ -38,6 +38,21 @@ struct Choices {
     int sceneCamera = 0;  ///< of the moment's; -1: the free one
 };
 
+/// What undo and redo bring back: what the user has done to lights and techniques.
+struct Work {
+    std::shared_ptr<const EditedLights::State> lights;
+    std::size_t light = 0;  ///< the one in question
+    std::string technique, other;
+    std::map<std::string, std::string> techniqueOfLight;
+    std::map<std::string, ParameterValues> parameters;  ///< that differ from the defaults, by technique
+
+    /// The light in question alone is no step.
+    bool operator==(const Work& with) const {
+        return lights == with.lights && technique == with.technique && other == with.other &&
+               techniqueOfLight == with.techniqueOfLight && parameters == with.parameters;
+    }
+};
+
 class Session {
   public:
     /// `shaderSourceDirectory` as in DeviceOptions. An OpenGL context is current as long as this lives.
@@ -72,6 +87,9 @@ class Session {
     void setTime(double time_s);
     void editLights(std::vector<Light> lights);
     void revertLights();
+
+    Work work();
+    void restore(const Work& work);
 
     /// Camera, time, lights or size are others now: both sides and the truth begin anew.
     void changedView();

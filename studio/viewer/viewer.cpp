@@ -53,8 +53,9 @@ Viewer::Viewer(ViewerOptions options)
       ui_(window_.contentScale()),
       shaderWatch_(options_.shaderSourceDirectory) {
     applySettings(settings_, session_);
-    desk_.showsWelcome = options_.scene.empty();
+    windowState_.showsWelcome = options_.scene.empty();
     session_.open(options_.scene.empty() ? welcomeScene : options_.scene, options_.open);
+    history_.start(session_.work());
     if (!options_.scene.empty()) settings_.addRecent(options_.scene);
     window_.setTitle("Penumbra - " + session_.document().nameOrPath());
 }
@@ -83,9 +84,9 @@ void Viewer::keepSettings() {
 }
 
 void Viewer::say(const std::string& message, bool isError) {
-    desk_.message = message;
-    desk_.messageIsError = isError;
-    desk_.messageUntil_s = isError ? 1e30 : glfwGetTime() + messageTime_s;
+    windowState_.message = message;
+    windowState_.messageIsError = isError;
+    windowState_.messageUntil_s = isError ? 1e30 : glfwGetTime() + messageTime_s;
     if (isError) spdlog::error("{}", message);
 }
 
@@ -100,9 +101,14 @@ void Viewer::attempt(const Action& action) {
 
 bool Viewer::frame(bool wait) {
     // While only rays are traced, frames shall not take the processors away from them.
-    const bool active = hand_.busy() || desk_.playing || recorder_.active() || session_.picker().busy();
+    const bool active =
+        mouse_.busy() || windowState_.playing || recorder_.active() || session_.picker().busy();
     window_.pollEvents(!wait || active ? 0 : session_.busy() ? 0.1 : 0.25);
-    if (window_.closeRequested()) return false;
+    if (window_.closeRequested()) {
+        if (!session_.document().lights().unsaved()) return false;
+        window_.cancelClose();
+        keyRequests_.quit = true;
+    }
     if (window_.width_px() == 0 || window_.height_px() == 0) return true;  // minimised
 
     takeFiles();
@@ -113,8 +119,11 @@ bool Viewer::frame(bool wait) {
     if (shaderWatch_.changed()) session_.reloadShaders();
     Requests requests = std::exchange(keyRequests_, {});
     drawPanels(requests);
-    hand_.update(place_, window_, session_, desk_, ui_.scale());
+    mouse_.update(place_, window_, session_, windowState_, ui_.scale());
     carryOut(requests);
+    if (!mouse_.busy() && !ImGui::IsAnyItemActive()) history_.note(session_.work());
+    windowState_.canUndo = history_.canUndo();
+    windowState_.canRedo = history_.canRedo();
     updatePicture();
     record();
     drawCanvas();
@@ -127,9 +136,10 @@ bool Viewer::frame(bool wait) {
 void Viewer::open(const std::string& nameOrPath) {
     attempt([&] {
         session_.open(nameOrPath);
+        history_.start(session_.work());
         settings_.addRecent(nameOrPath);
         window_.setTitle("Penumbra - " + nameOrPath);
-        desk_.playing = false;
+        windowState_.playing = false;
         const std::vector<std::string>& warnings = session_.document().scene().warnings;
         say(warnings.empty() ? "opened " + nameOrPath : fmt::format("{}", fmt::join(warnings, "\n")));
     });
@@ -150,7 +160,8 @@ void Viewer::loadProfile(const std::string& file) {
 void Viewer::takeFiles() {
     const std::vector<std::filesystem::path> files = window_.takeDroppedFiles();
     if (files.empty()) return;
-    isProfileName(files.front()) ? loadProfile(files.front().string()) : open(files.front().string());
+    if (isProfileName(files.front())) return loadProfile(files.front().string());
+    keyRequests_.open = files.front().string();
 }
 
 void Viewer::advanceTime() {
@@ -163,43 +174,70 @@ void Viewer::advanceTime() {
         return;
     }
     const double duration_s = session_.document().duration_s();
-    if (!desk_.playing || duration_s <= 0) return;
+    if (!windowState_.playing || duration_s <= 0) return;
     session_.setTime(std::fmod(session_.document().time_s() + std::min(elapsed_s, 0.25), duration_s));
 }
 
 void Viewer::drawPanels(Requests& requests) {
-    drawMenuBar(ui_, session_, settings_, desk_, requests);
+    drawMenuBar(ui_, session_, settings_, windowState_, requests);
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float top = ImGui::GetFrameHeight();
-    const float width = desk_.showsPanel ? std::min(panelWidth * ui_.scale(), 0.5f * display.x) : 0;
+    const float width = windowState_.showsPanel ? std::min(panelWidth * ui_.scale(), 0.5f * display.x) : 0;
     place_ = {{width, top}, {std::max(1.0f, display.x - width), std::max(1.0f, display.y - top)}};
-    if (desk_.showsPanel) {
+    if (windowState_.showsPanel) {
         ImGui::SetNextWindowPos({0, top});
         ImGui::SetNextWindowSize({width, place_.size.y});
         ImGui::Begin("panel", nullptr,
                      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                          ImGuiWindowFlags_NoBringToFrontOnFocus);
-        drawAnimationPanel(ui_, session_, desk_, recorder_, requests);
-        drawTechniquePanel(ui_, session_, settings_, desk_);
+        drawAnimationPanel(ui_, session_, windowState_, recorder_, requests);
+        drawTechniquePanel(ui_, session_, settings_, windowState_);
         drawColorsPanel(ui_, session_);
         drawComparePanel(ui_, session_);
-        drawLightsPanel(ui_, session_, desk_, requests);
-        drawInsightPanel(ui_, session_, desk_, frameTimes_ms_);
+        drawLightsPanel(ui_, session_, windowState_, requests);
+        drawInsightPanel(ui_, session_, windowState_, frameTimes_ms_);
         ImGui::End();
     }
-    drawHelp(ui_, desk_);
+    drawHelp(ui_, windowState_);
     drawOpenDialog(requests);
+    drawLeavingDialog(requests);
+}
+
+void Viewer::drawLeavingDialog(Requests& requests) {
+    constexpr const char* title = "Lights are not saved";
+    const bool leaves = requests.quit || requests.open;
+    if (leaves && session_.document().lights().unsaved()) {
+        windowState_.leaving = std::exchange(requests, {});
+        ImGui::OpenPopup(title);
+    }
+    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+    ui_.note("The lights of " + session_.document().nameOrPath() + " have changes that no file holds.");
+    const bool saves = ui_.button("Save lights and go on");
+    ImGui::SameLine();
+    const bool drops = ui_.button("Drop the changes");
+    ImGui::SameLine();
+    const bool stays = ui_.button("Stay");
+    if ((saves && saveLights()) || drops) {
+        if (drops) session_.revertLights();
+        requests = windowState_.leaving.value();
+    }
+    if (saves || drops || stays) {
+        windowState_.leaving.reset();
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::EndPopup();
 }
 
 void Viewer::drawOpenDialog(Requests& requests) {
-    if (std::exchange(desk_.asksForPath, false)) ImGui::OpenPopup("Open a scene");
+    if (std::exchange(windowState_.asksForPath, false)) ImGui::OpenPopup("Open a scene");
     if (!ImGui::BeginPopupModal("Open a scene", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
     ui_.note("A glTF file (.gltf, .glb) or the name of a built-in scene. Files can be dropped, too.");
     ImGui::SetNextItemWidth(420 * ui_.scale());
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    const bool entered = ImGui::InputText("##path", &desk_.openPath, ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool entered =
+        ImGui::InputText("##path", &windowState_.openPath, ImGuiInputTextFlags_EnterReturnsTrue);
     if (ui_.button("Open") || entered) {
-        requests.open = desk_.openPath;
+        requests.open = windowState_.openPath;
         ImGui::CloseCurrentPopup();
     }
     ImGui::SameLine();
@@ -215,7 +253,23 @@ std::filesystem::path Viewer::freshPictureName() const {
     }
 }
 
+bool Viewer::saveLights() {
+    attempt([&] {
+        const std::string file = session_.document().saveLights().string();
+        const bool found = !session_.document().sidecar().empty();
+        say(fmt::format("lights saved to {}{}", file,
+                        found ? "" : "; --lights " + file + " shows them again"));
+    });
+    return !session_.document().lights().unsaved();
+}
+
+void Viewer::undo(const Requests& requests) {
+    if (requests.undo && history_.canUndo()) session_.restore(history_.undo());
+    if (requests.redo && history_.canRedo()) session_.restore(history_.redo());
+}
+
 void Viewer::carryOut(const Requests& requests) {
+    undo(requests);
     if (requests.quit) window_.requestClose();
     if (requests.open) open(*requests.open);
     if (requests.profile) loadProfile(*requests.profile);
@@ -225,14 +279,7 @@ void Viewer::carryOut(const Requests& requests) {
     }
     if (requests.resetCamera) session_.useSceneCamera(0);
     if (requests.reloadShaders) session_.reloadShaders();
-    if (requests.saveLights) {
-        attempt([&] {
-            const std::string file = session_.document().saveLights().string();
-            const bool found = !session_.document().sidecar().empty();
-            say(fmt::format("lights saved to {}{}", file,
-                            found ? "" : "; --lights " + file + " shows them again"));
-        });
-    }
+    if (requests.saveLights) saveLights();
     if (requests.copyCommand) {
         attempt([&] {
             restoreResolution();
@@ -256,8 +303,8 @@ void Viewer::carryOut(const Requests& requests) {
     }
     if (requests.record) {
         attempt([&] {
-            recorder_.start(desk_.recording);
-            desk_.playing = false;
+            recorder_.start(windowState_.recording);
+            windowState_.playing = false;
         });
     }
     if (requests.stopRecording) recorder_.stop();
@@ -265,7 +312,7 @@ void Viewer::carryOut(const Requests& requests) {
 
 void Viewer::updatePicture() {
     // While hands move and frames are late, the resolution gives way; at rest it is what was chosen.
-    const bool moving = hand_.busy() || desk_.playing;
+    const bool moving = mouse_.busy() || windowState_.playing;
     const double now_s = glfwGetTime();
     if (moving) movedAt_s_ = now_s;
     const float before = slowDown_;

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "studio/viewer/hand.h"
+#include "studio/viewer/canvas_mouse.h"
+#include "studio/viewer/history.h"
 #include "studio/viewer/settings.h"
 #include "studio/viewer/shader_watch.h"
 
@@ -38,8 +39,8 @@ class Viewer {
 
     Session& session() { return session_; }
     Window& window() { return window_; }
-    const Desk& desk() const { return desk_; }
-    Desk& desk() { return desk_; }
+    const WindowState& windowState() const { return windowState_; }
+    WindowState& windowState() { return windowState_; }
     const Settings& settings() const { return settings_; }
     const std::vector<PlacedWidget>& widgets() const { return ui_.placed(); }
     const CanvasPlace& canvasPlace() const { return place_; }
@@ -59,7 +60,11 @@ class Viewer {
     void advanceTime();
     void drawPanels(Requests& requests);
     void drawOpenDialog(Requests& requests);
+    /// Leaving the scene with lights that are not saved: whether, and how.
+    void drawLeavingDialog(Requests& requests);
     void carryOut(const Requests& requests);
+    bool saveLights();
+    void undo(const Requests& requests);
     void open(const std::string& nameOrPath);
     void updatePicture();
     /// Draws the picture anew where that is needed; true if it was.
@@ -82,11 +87,12 @@ class Viewer {
     Window window_;
     Session session_;
     Ui ui_;
-    Desk desk_;
-    Hand hand_;
+    WindowState windowState_;
+    CanvasMouse mouse_;
     Recorder recorder_;
     std::optional<double> recordedTime_s_;  ///< that is being shown for the recorder
     ShaderWatch shaderWatch_;
+    History<Work> history_;
     Requests keyRequests_;
     CanvasPlace place_;
     std::vector<float> frameTimes_ms_;  ///< of frames that had something to draw

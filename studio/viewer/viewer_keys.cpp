@@ -18,7 +18,7 @@ void Viewer::takeKeys() {
         choices.flipped = flips;
         session_.changedCanvas();
     }
-    if (!keys.empty() || ImGui::GetIO().MouseClicked[0]) desk_.showsWelcome = false;
+    if (!keys.empty() || ImGui::GetIO().MouseClicked[0]) windowState_.showsWelcome = false;
     for (const KeyPress& press : keys) {
         if (ImGui::GetIO().WantTextInput) continue;
         // While the right button flies, letters steer.
@@ -36,10 +36,13 @@ void Viewer::chooseByKey(int key, int mods) {
         if (shown == Shown::illuminance) session_.fitIlluminance();
     };
     if ((mods & GLFW_MOD_CONTROL) != 0) {
-        desk_.asksForPath |= key == GLFW_KEY_O;
+        windowState_.asksForPath |= key == GLFW_KEY_O;
         keyRequests_.saveLights |= key == GLFW_KEY_S;
         keyRequests_.copyCommand |= key == GLFW_KEY_C;
         keyRequests_.quit |= key == GLFW_KEY_Q;
+        const bool shift = (mods & GLFW_MOD_SHIFT) != 0;
+        keyRequests_.undo |= key == GLFW_KEY_Z && !shift;
+        keyRequests_.redo |= (key == GLFW_KEY_Z && shift) || key == GLFW_KEY_Y;
         if (key == GLFW_KEY_D) changeSelectedLight(key);
         return;
     }
@@ -73,20 +76,20 @@ void Viewer::chooseByKey(int key, int mods) {
             keyRequests_.resetCamera = true;
             return;
         case GLFW_KEY_G:
-            desk_.gizmoMode = Gizmo::Mode::move;
+            windowState_.gizmoMode = Gizmo::Mode::move;
             return;
         case GLFW_KEY_T:
-            desk_.gizmoMode = Gizmo::Mode::turn;
+            windowState_.gizmoMode = Gizmo::Mode::turn;
             return;
         case GLFW_KEY_S:
-            desk_.gizmoMode = Gizmo::Mode::resize;
+            windowState_.gizmoMode = Gizmo::Mode::resize;
             return;
         case GLFW_KEY_L:
             return nextLight();
         case GLFW_KEY_DELETE:
             return changeSelectedLight(key);
         case GLFW_KEY_SPACE:
-            desk_.playing = !desk_.playing && session_.document().duration_s() > 0;
+            windowState_.playing = !windowState_.playing && session_.document().duration_s() > 0;
             return;
         case GLFW_KEY_COMMA:
             return stepTime(-1);
@@ -94,14 +97,14 @@ void Viewer::chooseByKey(int key, int mods) {
             return stepTime(1);
         case GLFW_KEY_H:
         case GLFW_KEY_SLASH:
-            desk_.showsHelp = !desk_.showsHelp;
+            windowState_.showsHelp = !windowState_.showsHelp;
             return;
         case GLFW_KEY_ESCAPE:
-            desk_.showsHelp = false;
-            desk_.message.clear();
+            windowState_.showsHelp = false;
+            windowState_.message.clear();
             return session_.picker().clear();
         case GLFW_KEY_F1:
-            desk_.showsPanel = !desk_.showsPanel;
+            windowState_.showsPanel = !windowState_.showsPanel;
             return;
         case GLFW_KEY_F2:
             keyRequests_.savePicture = true;
@@ -140,8 +143,8 @@ void Viewer::changeSelectedLight(int key) {
 void Viewer::stepTime(int frames) {
     const double duration_s = session_.document().duration_s();
     if (duration_s <= 0) return;
-    desk_.playing = false;
-    const double time_s = session_.document().time_s() + frames / desk_.recording.framesPerSecond;
+    windowState_.playing = false;
+    const double time_s = session_.document().time_s() + frames / windowState_.recording.framesPerSecond;
     session_.setTime(std::clamp(time_s, 0.0, duration_s));
 }
 

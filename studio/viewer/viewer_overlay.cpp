@@ -67,7 +67,7 @@ void Viewer::drawCanvas() {
     ImGui::GetBackgroundDrawList()->AddImage(imageId(canvas), place_.min,
                                              {place_.min.x + place_.size.x, place_.min.y + place_.size.y},
                                              {0, 1}, {1, 0});
-    hand_.draw(place_, session_, desk_, ui_.scale());
+    mouse_.draw(place_, session_, windowState_, ui_.scale());
 }
 
 void Viewer::drawOverlay() {
@@ -108,16 +108,16 @@ void Viewer::drawOverlay() {
         boxed(list, {min.x + margin, y}, text, scale, 0, background);
         y -= 8 * scale;
     };
-    if (desk_.showsWelcome) {
+    if (windowState_.showsWelcome) {
         write(
             "Drag to turn, wheel to come nearer, right button and WASD to fly\n"
             "1 to 9 choose the technique; C compares it with the ray-traced truth\n"
             "Drop a glTF file to open it; H shows every key",
             IM_COL32(12, 13, 16, 215));
     }
-    if (!desk_.message.empty() && glfwGetTime() < desk_.messageUntil_s) {
-        write(desk_.message + (desk_.messageIsError ? "\n(Esc closes this)" : ""),
-              desk_.messageIsError ? IM_COL32(120, 24, 20, 230) : IM_COL32(28, 60, 34, 225));
+    if (!windowState_.message.empty() && glfwGetTime() < windowState_.messageUntil_s) {
+        write(windowState_.message + (windowState_.messageIsError ? "\n(Esc closes this)" : ""),
+              windowState_.messageIsError ? IM_COL32(120, 24, 20, 230) : IM_COL32(28, 60, 34, 225));
     }
     if (!session_.problem().empty()) write(session_.problem(), IM_COL32(120, 24, 20, 230));
     if (!session_.shaderProblem().empty()) {

@@ -94,6 +94,10 @@ void Window::requestClose() {
     glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
 
+void Window::cancelClose() {
+    glfwSetWindowShouldClose(window_, GLFW_FALSE);
+}
+
 void Window::onKey(int key, int scancode, int action, int mods) {
     if (action == GLFW_RELEASE) {
         releases_.push_back({key, scancode, mods});

@@ -37,6 +37,7 @@ class Window {
 
     bool closeRequested() const;
     void requestClose();
+    void cancelClose();
 
     /// Takes in what has happened; waits up to `longest_s` for something to happen.
     void pollEvents(double longest_s);

@@ -119,7 +119,7 @@ TEST_F(Tour, Buffers) {
     scrollPanel(40);
     openHeader("Buffers");
     const auto buffers = session().inspected();
-    viewer().desk().buffer = buffers.size() - 1;
+    viewer().windowState().buffer = buffers.size() - 1;
     scrollPanel(40);
     keep("buffers");
 }
@@ -127,7 +127,7 @@ TEST_F(Tour, Buffers) {
 TEST_F(Tour, Help) {
     begin("columns", "exact");
     key("h");
-    EXPECT_TRUE(viewer().desk().showsHelp);
+    EXPECT_TRUE(viewer().windowState().showsHelp);
     keep("help");
 }
 

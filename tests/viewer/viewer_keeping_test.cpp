@@ -62,7 +62,7 @@ TEST_F(ViewerTest, TheCopiedCommandKnowsTimeTextureAndReference) {
 TEST_F(ViewerTest, PicturesCarryWhatMadeThem) {
     start("two-boxes");
     key("F2");
-    ASSERT_TRUE(std::filesystem::exists(at("two-boxes.001.png"))) << viewer().desk().message;
+    ASSERT_TRUE(std::filesystem::exists(at("two-boxes.001.png"))) << viewer().windowState().message;
     const PngPicture saved = readPng(at("two-boxes.001.png"));
     EXPECT_TRUE(samePixels(saved.image, picture()));
     EXPECT_TRUE(saved.metadata.at("penumbra:command").starts_with("penumbra render two-boxes"));
@@ -106,7 +106,7 @@ TEST_F(ViewerTest, WhatIsKeptOfAReducedPictureIsNotReduced) {
     key("F2");
     Display::input("mouseup 1");
     frames(2);
-    EXPECT_EQ(readPng(at("two-boxes.001.png")).image.width_px, width_px) << viewer().desk().message;
+    EXPECT_EQ(readPng(at("two-boxes.001.png")).image.width_px, width_px) << viewer().windowState().message;
     EXPECT_EQ(readExr(at("two-boxes.001.exr")).height_px, height_px);
 }
 
@@ -128,7 +128,7 @@ TEST_F(ViewerTest, SettingsSurviveARestart) {
 TEST_F(ViewerTest, AnimationPlaysPausesAndIsRecorded) {
     start("moving");
     key("space");
-    EXPECT_TRUE(viewer().desk().playing);
+    EXPECT_TRUE(viewer().windowState().playing);
     frames(4);
     EXPECT_GT(session().document().time_s(), 0);
     key("space");
@@ -140,10 +140,10 @@ TEST_F(ViewerTest, AnimationPlaysPausesAndIsRecorded) {
     clickWidget("##time", 0.5);
     EXPECT_NEAR(session().document().time_s(), 2, 0.2);
 
-    viewer().desk().recording = {at("frames"), 3, 5, 24};
+    viewer().windowState().recording = {at("frames"), 3, 5, 24};
     clickWidget("Record");
     framesUntil([&] { return !viewer().recorder().active(); });
-    ASSERT_TRUE(std::filesystem::exists(at("frames/frame.0005.png"))) << viewer().desk().message;
+    ASSERT_TRUE(std::filesystem::exists(at("frames/frame.0005.png"))) << viewer().windowState().message;
     EXPECT_FALSE(std::filesystem::exists(at("frames/frame.0006.png")));
     const PngPicture last = readPng(at("frames/frame.0005.png"));
     EXPECT_GT(shareOfDifferent(readPng(at("frames/frame.0003.png")).image, last.image), 0.001);
@@ -159,8 +159,8 @@ TEST_F(ViewerTest, WrongFilesLeaveTheSceneStanding) {
     Display::input("type " + at("broken.gltf"));
     frames();
     key("Return");
-    EXPECT_TRUE(viewer().desk().messageIsError);
-    EXPECT_NE(viewer().desk().message.find("broken.gltf"), std::string::npos);
+    EXPECT_TRUE(viewer().windowState().messageIsError);
+    EXPECT_NE(viewer().windowState().message.find("broken.gltf"), std::string::npos);
     EXPECT_EQ(session().document().nameOrPath(), "two-boxes");
     EXPECT_EQ(largestDifference(before, picture()), 0);
 
@@ -172,7 +172,7 @@ TEST_F(ViewerTest, WrongFilesLeaveTheSceneStanding) {
     glfwSetDropCallback(window, drop);
     drop(window, 1, paths);
     frames();
-    EXPECT_NE(viewer().desk().message.find("missing.glb"), std::string::npos);
+    EXPECT_NE(viewer().windowState().message.find("missing.glb"), std::string::npos);
     EXPECT_EQ(session().document().nameOrPath(), "two-boxes");
     const std::string good = writeScene("good.gltf");
     paths[0] = good.c_str();
@@ -250,7 +250,7 @@ TEST_F(ViewerTest, NothingLeaksOverAThousandFrames) {
     viewer_ = std::make_unique<Viewer>(options("two-boxes"));
     frames();
     key("F1");  // without the panel, whose drawing would take most of the time
-    ASSERT_FALSE(viewer().desk().showsPanel);
+    ASSERT_FALSE(viewer().windowState().showsPanel);
     const auto turn = [&](int count) {
         for (int i = 0; i < count; ++i) {
             session().freeCamera().orbit(0.01f, 0);

@@ -12,9 +12,9 @@
 #include "studio/image/test_folder.h"
 #include "studio/scene/builtin/builtin.h"
 #include "studio/viewer/camera_control.h"
+#include "studio/viewer/edited_lights.h"
 #include "studio/viewer/false_color.h"
 #include "studio/viewer/gizmo.h"
-#include "studio/viewer/light_book.h"
 #include "studio/viewer/panels/panels.h"
 #include "studio/viewer/progressive_reference.h"
 #include "studio/viewer/settings.h"
@@ -212,7 +212,7 @@ TEST(Gizmo, ResizesFromTheEdgeAndKeepsTheLuminance) {
     EXPECT_EQ(none.shape.width_m, 0);
 }
 
-TEST(LightBook, SizeZeroKeepsWhatTheLightGivesFromAfar) {
+TEST(EditedLights, SizeZeroKeepsWhatTheLightGivesFromAfar) {
     Light bulb = sphereLight("bulb", 0.1f, {0, 2, 0}, {0, 0, 0}, 400);
     const float candela = bulb.emission.value.r * pi * 0.01f;
     setSize(bulb, &AreaLight::radius_m, 0);
@@ -223,7 +223,7 @@ TEST(LightBook, SizeZeroKeepsWhatTheLightGivesFromAfar) {
     EXPECT_NEAR(bulb.emission.value.r, candela / (pi * 0.04f), 1e-3f * candela);
 }
 
-TEST(LightBook, AnotherShapeGivesAsMuchLight) {
+TEST(EditedLights, AnotherShapeGivesAsMuchLight) {
     const Light rect = rectLight("key", 0.8f, 0.8f, {0, 3, 0}, {0, 0, 0}, 900);
     for (const LightShape shape : {LightShape::disk, LightShape::sphere, LightShape::distant}) {
         Light changed = rect;
@@ -241,22 +241,22 @@ TEST(LightBook, AnotherShapeGivesAsMuchLight) {
     }
 }
 
-TEST(LightBook, ShowsWhatItSaves) {
+TEST(EditedLights, ShowsWhatItSaves) {
     const TestFolder folder;
     Scene scene = makeBuiltin("many-lights");
     SceneMoment moment = scene.at(0);
-    LightBook book;
+    EditedLights edited;
     std::vector<Light> lights = moment.lights;
     lights[0].shape.width_m = 0.7f;
     lights[1].emission.value = {123.4f, 56.7f, 8.9f};
     lights[2].castsShadow = false;
     lights.push_back(lights[0]);  // the same name twice
-    book.edit(lights);
-    book.apply(moment);
+    edited.edit(lights);
+    edited.apply(moment);
     EXPECT_EQ(moment.lights.back().name, lights[0].name + " 2");
-    EXPECT_TRUE(book.unsaved());
-    book.save(scene, folder / "scene.lights.json");
-    EXPECT_FALSE(book.unsaved());
+    EXPECT_TRUE(edited.unsaved());
+    edited.save(scene, folder / "scene.lights.json");
+    EXPECT_FALSE(edited.unsaved());
 
     Scene again = makeBuiltin("many-lights");
     applySidecar(again, readSidecar(folder / "scene.lights.json"), folder.path());
@@ -271,20 +271,20 @@ TEST(LightBook, ShowsWhatItSaves) {
         EXPECT_EQ(read[i].emission.value, moment.lights[i].emission.value);
         EXPECT_EQ(read[i].castsShadow, moment.lights[i].castsShadow);
     }
-    book.revert();
-    EXPECT_FALSE(book.edited());
+    edited.revert();
+    EXPECT_FALSE(edited.edited());
 }
 
-TEST(LightBook, KeepsWhatTheFileSaysOfNodesAndWritesTextures) {
+TEST(EditedLights, KeepsWhatTheFileSaysOfNodesAndWritesTextures) {
     const TestFolder folder;
     writeFileAtomically(folder / "a.lights.json",
                         std::string_view(R"({"version": 1, "nodes": {"ball": {"casts": false}}})"));
     Scene scene = makeBuiltin("textured-window");
     SceneMoment moment = scene.at(0);
-    LightBook book;
-    book.edit(moment.lights);
-    book.apply(moment);
-    book.save(scene, folder / "a.lights.json");
+    EditedLights edited;
+    edited.edit(moment.lights);
+    edited.apply(moment);
+    edited.save(scene, folder / "a.lights.json");
     const Sidecar sidecar = readSidecar(folder / "a.lights.json");
     ASSERT_EQ(sidecar.nodes.size(), 1u);
     EXPECT_EQ(sidecar.nodes[0].casts, false);

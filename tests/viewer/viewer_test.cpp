@@ -26,7 +26,7 @@ glm::vec3 placeOfLight(const Session& session, std::size_t index = 0) {
 TEST_F(ViewerTest, StartsWithAPictureAndThreeLinesOfHelp) {
     viewer_ = std::make_unique<Viewer>(options(""));
     frames(2);
-    EXPECT_TRUE(viewer().desk().showsWelcome);
+    EXPECT_TRUE(viewer().windowState().showsWelcome);
     EXPECT_EQ(session().document().nameOrPath(), "primitives");
     // A shadow that is soft: there are values between lit and dark.
     const Image visibility = session().frame().readVisibility(session().side(0).visibilities.at(0));
@@ -35,7 +35,7 @@ TEST_F(ViewerTest, StartsWithAPictureAndThreeLinesOfHelp) {
     const Image window = viewer().screenshot();
     EXPECT_GT(std::ranges::max(window.values), 0.9f);
     click(to(0.5, 0.5));
-    EXPECT_FALSE(viewer().desk().showsWelcome);
+    EXPECT_FALSE(viewer().windowState().showsWelcome);
 }
 
 TEST_F(ViewerTest, MouseAndKeysMoveTheCamera) {
@@ -89,9 +89,9 @@ TEST_F(ViewerTest, KeysChooseTechniques) {
     key("1");
     EXPECT_EQ(largestDifference(hard, picture()), 0);
     key("question");
-    EXPECT_TRUE(viewer().desk().showsHelp);
+    EXPECT_TRUE(viewer().windowState().showsHelp);
     clickWidget("Close help");
-    EXPECT_FALSE(viewer().desk().showsHelp);
+    EXPECT_FALSE(viewer().windowState().showsHelp);
 }
 
 TEST_F(ViewerTest, ParametersHaveWidgetsAndAWayBack) {
@@ -137,12 +137,81 @@ TEST_F(ViewerTest, LightsAreAddedEditedAndSaved) {
     const Image edited = picture();
 
     key("ctrl+s");
-    EXPECT_TRUE(std::filesystem::exists(at("box.lights.json"))) << viewer().desk().message;
+    EXPECT_TRUE(std::filesystem::exists(at("box.lights.json"))) << viewer().windowState().message;
     EXPECT_FALSE(session().document().lights().unsaved());
     viewer_.reset();
     start(at("box.gltf"));
     EXPECT_EQ(session().document().moment().lights.size(), before + 1);
     EXPECT_EQ(largestDifference(edited, picture()), 0);
+}
+
+TEST_F(ViewerTest, WhatWasDoneIsUndoneAndRedone) {
+    start(writeScene("box.gltf"), "pcf");
+    const std::size_t before = session().document().moment().lights.size();
+    const Image first = picture();
+    clickWidget("Add");
+    clickWidget("casts shadow", 0.1);
+    clickWidget("map size (texels)##map_size", 0.2);
+    key("1");
+    const Work done = session().work();
+    const Image last = picture();
+
+    key("ctrl+z");
+    EXPECT_EQ(session().choices().technique, "pcf");
+    key("ctrl+z");
+    EXPECT_TRUE(session().techniques().changes("pcf").empty());
+    key("ctrl+z");
+    EXPECT_TRUE(session().document().moment().lights.back().castsShadow);
+    key("ctrl+z");
+    EXPECT_EQ(session().document().moment().lights.size(), before);
+    EXPECT_FALSE(session().document().lights().unsaved());
+    EXPECT_EQ(largestDifference(first, picture()), 0);
+    key("ctrl+z");  // nothing is left
+    for (int step = 0; step < 4; ++step) key("ctrl+shift+z");
+    EXPECT_EQ(session().work(), done);
+    EXPECT_EQ(largestDifference(last, picture()), 0);
+}
+
+TEST_F(ViewerTest, ADragIsOneStep) {
+    start("two-boxes");
+    const std::vector<Light> before = session().document().moment().lights;
+    clickWidget("Duplicate");
+    const Work doubled = session().work();
+    ASSERT_NE(widget("width (m)"), nullptr);
+    const PlacedWidget size = *widget("width (m)");
+    const float y = 0.5f * (size.min.y + size.max.y);
+    const auto place = [&](double share) {
+        return "mousemove " + std::to_string(int(size.min.x + share * (size.max.x - size.min.x))) + " " +
+               std::to_string(int(y));
+    };
+    Display::input(place(0.3) + " mousedown 1");
+    frames();
+    for (const double share : {0.4, 0.5, 0.6}) {
+        Display::input(place(share));
+        frames();
+    }
+    Display::input("mouseup 1");
+    frames();
+    ASSERT_NE(session().work(), doubled);
+    key("ctrl+z");
+    EXPECT_EQ(session().work(), doubled);
+}
+
+TEST_F(ViewerTest, LeavingUnsavedLightsAsks) {
+    start(writeScene("box.gltf"));
+    clickWidget("Add");
+    const std::size_t count = session().document().moment().lights.size();
+    key("ctrl+q");
+    ASSERT_TRUE(viewer().windowState().leaving);
+    clickWidget("Stay");
+    EXPECT_FALSE(viewer().windowState().leaving);
+    EXPECT_EQ(session().document().moment().lights.size(), count);
+    ASSERT_TRUE(viewer().frame(false));
+
+    key("ctrl+q");
+    clickWidget("Save lights and go on");
+    EXPECT_TRUE(std::filesystem::exists(at("box.lights.json")));
+    EXPECT_FALSE(viewer().frame(false));
 }
 
 TEST_F(ViewerTest, LightsMoveTurnAndGrowByHand) {
@@ -152,8 +221,8 @@ TEST_F(ViewerTest, LightsMoveTurnAndGrowByHand) {
     const auto pull = [&](Gizmo::Axis axis) {
         const Projection projection(session().cameraView(), {place.size.x, place.size.y});
         const auto handles =
-            Gizmo::handles(session().document().moment().lights.at(0), viewer().desk().gizmoMode, projection,
-                           session().document().bounds(), 1);
+            Gizmo::handles(session().document().moment().lights.at(0), viewer().windowState().gizmoMode,
+                           projection, session().document().bounds(), 1);
         const auto handle = std::ranges::find(handles, axis, &Gizmo::Handle::axis);
         ASSERT_NE(handle, handles.end());
         const glm::vec2 at = handle->line_px.back() / glm::vec2(place.size.x, place.size.y);

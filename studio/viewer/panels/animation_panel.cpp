@@ -7,34 +7,35 @@
 
 namespace penumbra::studio::viewer {
 
-void drawAnimationPanel(Ui& ui, Session& session, Desk& desk, const Recorder& recorder, Requests& requests) {
+void drawAnimationPanel(Ui& ui, Session& session, WindowState& windowState, const Recorder& recorder,
+                        Requests& requests) {
     const Document& document = session.document();
     if (document.duration_s() <= 0) {
-        desk.playing = false;
+        windowState.playing = false;
         return;
     }
     if (!ui.header("Animation")) return;
-    if (ui.button(desk.playing ? "Pause" : "Play")) desk.playing = !desk.playing;
+    if (ui.button(windowState.playing ? "Pause" : "Play")) windowState.playing = !windowState.playing;
     ImGui::SameLine();
     float time_s = float(document.time_s());
     ImGui::SetNextItemWidth(-1);
     if (ui.slider("##time", time_s, 0, float(document.duration_s()), "%.2f s")) {
-        desk.playing = false;
+        windowState.playing = false;
         session.setTime(time_s);
     }
     ui.tip("Space plays and pauses; comma and full stop go one frame back and on");
 
-    std::string folder = desk.recording.folder.string();
-    if (ui.text("folder", folder)) desk.recording.folder = folder;
+    std::string folder = windowState.recording.folder.string();
+    if (ui.text("folder", folder)) windowState.recording.folder = folder;
     ImGui::PushItemWidth(70 * ui.scale());
-    int first = desk.recording.first, last = desk.recording.last;
-    if (ImGui::DragInt("from", &first, 1, 0, 100000)) desk.recording.first = first;
+    int first = windowState.recording.first, last = windowState.recording.last;
+    if (ImGui::DragInt("from", &first, 1, 0, 100000)) windowState.recording.first = first;
     ImGui::SameLine();
-    if (ImGui::DragInt("to frame", &last, 1, 0, 100000)) desk.recording.last = last;
+    if (ImGui::DragInt("to frame", &last, 1, 0, 100000)) windowState.recording.last = last;
     ImGui::SameLine();
-    auto framesPerSecond = float(desk.recording.framesPerSecond);
+    auto framesPerSecond = float(windowState.recording.framesPerSecond);
     if (ImGui::DragFloat("a second", &framesPerSecond, 1, 1, 240, "%.0f", ImGuiSliderFlags_AlwaysClamp)) {
-        desk.recording.framesPerSecond = framesPerSecond;
+        windowState.recording.framesPerSecond = framesPerSecond;
     }
     ImGui::PopItemWidth();
     if (!recorder.active()) {

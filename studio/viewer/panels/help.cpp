@@ -23,6 +23,7 @@ constexpr Row rows[] = {
     {"Ctrl while dragging a light", "in steps of 0.1 m or 15 degrees"},
     {"Ctrl+D, Delete", "double a light, take it away"},
     {"Space, comma, full stop", "play or pause, a frame back, a frame on"},
+    {"Ctrl+Z, Ctrl+Shift+Z", "undo and redo what was done to lights and techniques"},
     {"Ctrl+S, Ctrl+C", "save the lights, copy the command for this picture"},
     {"F2, F3", "save the picture, save what is shown"},
     {"Ctrl+O, drop a file", "open a scene"},
@@ -31,12 +32,12 @@ constexpr Row rows[] = {
 
 }  // namespace
 
-void drawHelp(Ui& ui, Desk& desk) {
-    if (!desk.showsHelp) return;
+void drawHelp(Ui& ui, WindowState& windowState) {
+    if (!windowState.showsHelp) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowFocus();
-    ImGui::Begin("Keys and mouse", &desk.showsHelp,
+    ImGui::Begin("Keys and mouse", &windowState.showsHelp,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
     if (ImGui::BeginTable("keys", 2)) {
         for (const Row& row : rows) {
@@ -47,7 +48,7 @@ void drawHelp(Ui& ui, Desk& desk) {
         }
         ImGui::EndTable();
     }
-    if (ui.button("Close help")) desk.showsHelp = false;
+    if (ui.button("Close help")) windowState.showsHelp = false;
     ImGui::End();
 }
 

@@ -41,23 +41,23 @@ void drawPasses(const Session& session) {
     }
 }
 
-void drawBuffers(Ui& ui, Session& session, Desk& desk) {
+void drawBuffers(Ui& ui, Session& session, WindowState& windowState) {
     const std::vector<InspectedTexture> buffers = session.inspected();
     std::vector<std::string> names;
     for (const InspectedTexture& buffer : buffers) names.emplace_back(buffer.name);
-    desk.buffer = std::min(desk.buffer, names.empty() ? 0 : names.size() - 1);
-    int index = int(desk.buffer);
+    windowState.buffer = std::min(windowState.buffer, names.empty() ? 0 : names.size() - 1);
+    int index = int(windowState.buffer);
     ImGui::SetNextItemWidth(-1);
-    if (ui.combo("##buffer", index, names)) desk.buffer = std::size_t(index);
+    if (ui.combo("##buffer", index, names)) windowState.buffer = std::size_t(index);
     ui.tip("What the technique of the light in question left behind, and the frame's own buffers");
-    if (desk.buffer < buffers.size() && buffers[desk.buffer].layers > 1) {
-        ui.slider("layer", desk.bufferLayer, 0, buffers[desk.buffer].layers - 1);
+    if (windowState.buffer < buffers.size() && buffers[windowState.buffer].layers > 1) {
+        ui.slider("layer", windowState.bufferLayer, 0, buffers[windowState.buffer].layers - 1);
     } else {
-        desk.bufferLayer = 0;
+        windowState.bufferLayer = 0;
     }
-    if (desk.buffer >= buffers.size()) return;
-    ui.checkbox("stretch to what is in it", desk.bufferStretched);
-    session.inspect(buffers[desk.buffer], desk.bufferLayer, desk.bufferStretched);
+    if (windowState.buffer >= buffers.size()) return;
+    ui.checkbox("stretch to what is in it", windowState.bufferStretched);
+    session.inspect(buffers[windowState.buffer], windowState.bufferLayer, windowState.bufferStretched);
     const gl::Texture& shown = session.inspection().texture();
     const float width = ImGui::GetContentRegionAvail().x;
     const float height = std::min(width * float(shown.height_px()) / float(shown.width_px()), 1.2f * width);
@@ -113,13 +113,14 @@ ImTextureID imageId(const gl::Texture& texture) {
     return reinterpret_cast<ImTextureID>(std::uintptr_t(texture.name()));
 }
 
-void drawInsightPanel(Ui& ui, Session& session, Desk& desk, const std::vector<float>& frameTimes_ms) {
+void drawInsightPanel(Ui& ui, Session& session, WindowState& windowState,
+                      const std::vector<float>& frameTimes_ms) {
     if (ui.header("Pick")) drawPick(ui, session);
     if (ui.header("Times", false)) {
         drawTimes(ui, session, frameTimes_ms);
         drawPasses(session);
     }
-    if (ui.header("Buffers", false)) drawBuffers(ui, session, desk);
+    if (ui.header("Buffers", false)) drawBuffers(ui, session, windowState);
 }
 
 }  // namespace penumbra::studio::viewer

@@ -93,7 +93,7 @@ bool editLight(Ui& ui, Light& light) {
 }
 
 /// What the light is by its maker's file, and a file to make it so.
-bool editProfile(Ui& ui, Light& light, Desk& desk, Requests& requests) {
+bool editProfile(Ui& ui, Light& light, WindowState& windowState, Requests& requests) {
     bool changed = false;
     if (light.profile) {
         ui.note(light.profile->profile->fileName);
@@ -103,10 +103,10 @@ bool editProfile(Ui& ui, Light& light, Desk& desk, Requests& requests) {
             changed = true;
         }
     }
-    ui.text("profile", desk.profilePath);
+    ui.text("profile", windowState.profilePath);
     ui.tip("A luminaire's file, .ies or .ldt: the light becomes that luminaire. Files can be dropped, too.");
     ImGui::SameLine();
-    if (ui.button("Load")) requests.profile = desk.profilePath;
+    if (ui.button("Load")) requests.profile = windowState.profilePath;
     return changed;
 }
 
@@ -166,7 +166,7 @@ bool drawListButtons(Ui& ui, Session& session) {
 
 }  // namespace
 
-void drawLightsPanel(Ui& ui, Session& session, Desk& desk, Requests& requests) {
+void drawLightsPanel(Ui& ui, Session& session, WindowState& windowState, Requests& requests) {
     if (!ui.header("Lights")) return;
     drawList(ui, session);
     if (drawListButtons(ui, session)) return;
@@ -177,7 +177,7 @@ void drawLightsPanel(Ui& ui, Session& session, Desk& desk, Requests& requests) {
         const std::string nameBefore = lights[selected].name;
         chooseTechniqueOf(ui, session, lights[selected]);
         const bool otherwise = editLight(ui, lights[selected]);
-        if (editProfile(ui, lights[selected], desk, requests) || otherwise) {
+        if (editProfile(ui, lights[selected], windowState, requests) || otherwise) {
             auto& own = session.choices().techniqueOfLight;
             session.editLights(lights);
             // A technique of its own follows a light to its new name.
@@ -191,7 +191,7 @@ void drawLightsPanel(Ui& ui, Session& session, Desk& desk, Requests& requests) {
     for (const auto& [label, mode] :
          {std::pair{"Move", Gizmo::Mode::move}, std::pair{"Turn", Gizmo::Mode::turn},
           std::pair{"Resize", Gizmo::Mode::resize}}) {
-        if (ui.radio(label, desk.gizmoMode == mode)) desk.gizmoMode = mode;
+        if (ui.radio(label, windowState.gizmoMode == mode)) windowState.gizmoMode = mode;
         ImGui::SameLine();
     }
     ui.note("by hand (G, T, S)");

@@ -7,9 +7,10 @@
 namespace penumbra::studio::viewer {
 namespace {
 
-void drawFileMenu(Ui& ui, Session& session, const Settings& settings, Desk& desk, Requests& requests) {
+void drawFileMenu(Ui& ui, Session& session, const Settings& settings, WindowState& windowState,
+                  Requests& requests) {
     if (!ui.beginMenu("File")) return;
-    if (ui.menuItem("Open...", "Ctrl+O")) desk.asksForPath = true;
+    if (ui.menuItem("Open...", "Ctrl+O")) windowState.asksForPath = true;
     if (ui.beginMenu("Built-in scenes")) {
         for (const BuiltinInfo& info : builtinScenes()) {
             if (ui.menuItem(std::string(info.name).c_str())) requests.open = std::string(info.name);
@@ -32,6 +33,13 @@ void drawFileMenu(Ui& ui, Session& session, const Settings& settings, Desk& desk
     ImGui::Separator();
     if (ui.menuItem("Read shaders again", "F5")) requests.reloadShaders = true;
     if (ui.menuItem("Quit", "Ctrl+Q")) requests.quit = true;
+    ImGui::EndMenu();
+}
+
+void drawEditMenu(Ui& ui, const WindowState& windowState, Requests& requests) {
+    if (!ui.beginMenu("Edit")) return;
+    if (ui.menuItem("Undo", "Ctrl+Z", false, windowState.canUndo)) requests.undo = true;
+    if (ui.menuItem("Redo", "Ctrl+Shift+Z", false, windowState.canRedo)) requests.redo = true;
     ImGui::EndMenu();
 }
 
@@ -63,7 +71,7 @@ void drawTechniqueMenu(Ui& ui, Session& session) {
     ImGui::EndMenu();
 }
 
-void drawViewMenu(Ui& ui, Session& session, Desk& desk) {
+void drawViewMenu(Ui& ui, Session& session, WindowState& windowState) {
     if (!ui.beginMenu("View")) return;
     Choices& choices = session.choices();
     if (ui.menuItem("Wipe between two", "C", choices.comparing)) {
@@ -88,20 +96,22 @@ void drawViewMenu(Ui& ui, Session& session, Desk& desk) {
             choices.resolutionScale = scale;
     }
     ImGui::Separator();
-    if (ui.menuItem("Panel", "F1", desk.showsPanel)) desk.showsPanel = !desk.showsPanel;
+    if (ui.menuItem("Panel", "F1", windowState.showsPanel)) windowState.showsPanel = !windowState.showsPanel;
     ImGui::EndMenu();
 }
 
 }  // namespace
 
-void drawMenuBar(Ui& ui, Session& session, const Settings& settings, Desk& desk, Requests& requests) {
+void drawMenuBar(Ui& ui, Session& session, const Settings& settings, WindowState& windowState,
+                 Requests& requests) {
     if (!ImGui::BeginMainMenuBar()) return;
-    drawFileMenu(ui, session, settings, desk, requests);
+    drawFileMenu(ui, session, settings, windowState, requests);
+    drawEditMenu(ui, windowState, requests);
     drawCameraMenu(ui, session, requests);
     drawTechniqueMenu(ui, session);
-    drawViewMenu(ui, session, desk);
+    drawViewMenu(ui, session, windowState);
     if (ui.beginMenu("Help")) {
-        if (ui.menuItem("Keys and mouse", "H")) desk.showsHelp = true;
+        if (ui.menuItem("Keys and mouse", "H")) windowState.showsHelp = true;
         ImGui::EndMenu();
     }
     const std::string said =

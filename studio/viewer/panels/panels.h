@@ -10,7 +10,7 @@
 namespace penumbra::studio::viewer {
 
 /// What belongs to the window and not to the picture.
-struct Desk {
+struct WindowState {
     bool showsHelp = false;
     bool showsWelcome = false;
     bool showsPanel = true;
@@ -27,6 +27,8 @@ struct Desk {
     bool bufferStretched = true;
     std::string presetName;
     std::string profilePath;  ///< of a luminaire
+    bool canUndo = false, canRedo = false;
+    std::optional<Requests> leaving;  ///< what shall be done once it is known what becomes of unsaved lights
 };
 
 /// The library's techniques and the reference, in the order of the keys 1 to 9 and 0.
@@ -34,14 +36,17 @@ std::vector<std::string> techniqueChoices();
 void chooseTechnique(Session& session, const std::string& name);
 void chooseOther(Session& session, const std::string& name);
 
-void drawMenuBar(Ui& ui, Session& session, const Settings& settings, Desk& desk, Requests& requests);
-void drawTechniquePanel(Ui& ui, Session& session, Settings& settings, Desk& desk);
-void drawLightsPanel(Ui& ui, Session& session, Desk& desk, Requests& requests);
+void drawMenuBar(Ui& ui, Session& session, const Settings& settings, WindowState& windowState,
+                 Requests& requests);
+void drawTechniquePanel(Ui& ui, Session& session, Settings& settings, WindowState& windowState);
+void drawLightsPanel(Ui& ui, Session& session, WindowState& windowState, Requests& requests);
 void drawComparePanel(Ui& ui, Session& session);
 void drawColorsPanel(Ui& ui, Session& session);
-void drawInsightPanel(Ui& ui, Session& session, Desk& desk, const std::vector<float>& frameTimes_ms);
-void drawAnimationPanel(Ui& ui, Session& session, Desk& desk, const Recorder& recorder, Requests& requests);
-void drawHelp(Ui& ui, Desk& desk);
+void drawInsightPanel(Ui& ui, Session& session, WindowState& windowState,
+                      const std::vector<float>& frameTimes_ms);
+void drawAnimationPanel(Ui& ui, Session& session, WindowState& windowState, const Recorder& recorder,
+                        Requests& requests);
+void drawHelp(Ui& ui, WindowState& windowState);
 
 /// Of the frame: median, 95th and 99th percentile.
 struct Percentiles {

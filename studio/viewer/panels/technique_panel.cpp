@@ -70,7 +70,8 @@ class ParameterWidgets final : public ParameterVisitor {
     bool changed_ = false;
 };
 
-void drawPresets(Ui& ui, Session& session, Settings& settings, Desk& desk, const std::string& name) {
+void drawPresets(Ui& ui, Session& session, Settings& settings, WindowState& windowState,
+                 const std::string& name) {
     auto& presets = settings.presets[name];
     std::vector<std::string> names = {"(the defaults)"};
     for (const auto& [preset, values] : presets) names.push_back(preset);
@@ -84,9 +85,10 @@ void drawPresets(Ui& ui, Session& session, Settings& settings, Desk& desk, const
         session.changedLighting();
     }
     ImGui::SetNextItemWidth(120 * ui.scale());
-    ui.text("##preset name", desk.presetName);
+    ui.text("##preset name", windowState.presetName);
     ImGui::SameLine();
-    if (ui.button("Keep as preset") && !desk.presetName.empty()) presets[desk.presetName] = current;
+    if (ui.button("Keep as preset") && !windowState.presetName.empty())
+        presets[windowState.presetName] = current;
     ui.tip("Keeps the parameters under the name to the left. They are there again after a restart.");
     if (index > 0) {
         ImGui::SameLine();
@@ -112,7 +114,7 @@ void chooseOther(Session& session, const std::string& name) {
     session.changedLighting();
 }
 
-void drawTechniquePanel(Ui& ui, Session& session, Settings& settings, Desk& desk) {
+void drawTechniquePanel(Ui& ui, Session& session, Settings& settings, WindowState& windowState) {
     if (!ui.header("Technique")) return;
     const std::vector<std::string> names = techniqueChoices();
     int index = int(std::ranges::find(names, session.choices().technique) - names.begin());
@@ -129,7 +131,7 @@ void drawTechniquePanel(Ui& ui, Session& session, Settings& settings, Desk& desk
     ParameterWidgets widgets(ui, session.techniques().defaults(name));
     technique.describe(widgets);
     if (widgets.changed()) session.changedLighting();
-    drawPresets(ui, session, settings, desk, name);
+    drawPresets(ui, session, settings, windowState, name);
     ImGui::PopItemWidth();
     ImGui::PopID();
 }

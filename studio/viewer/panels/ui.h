@@ -19,8 +19,9 @@ namespace penumbra::studio::viewer {
 struct Requests {
     std::optional<std::string> open;
     std::optional<std::string> profile;  ///< a luminaire's file, for the light that is chosen
-    bool saveLights = false, copyCommand = false, savePicture = false, saveCanvas = false, record = false,
-         stopRecording = false, frameAll = false, resetCamera = false, reloadShaders = false, quit = false;
+    bool undo = false, redo = false, saveLights = false, copyCommand = false, savePicture = false,
+         saveCanvas = false, record = false, stopRecording = false, frameAll = false, resetCamera = false,
+         reloadShaders = false, quit = false;
 };
 
 /// A widget of the frame that was drawn last, in screen coordinates: where a test clicks, and a reader is

@@ -18,20 +18,21 @@ struct CanvasPlace {
     }
 };
 
-class Hand {
+class CanvasMouse {
   public:
     /// Once a frame, within Dear ImGui's. `scale` as Ui::scale().
-    void update(const CanvasPlace& place, const Window& window, Session& session, const Desk& desk,
-                float scale);
+    void update(const CanvasPlace& place, const Window& window, Session& session,
+                const WindowState& windowState, float scale);
     /// Draws lights, gizmo and wipe line over the canvas.
-    void draw(const CanvasPlace& place, const Session& session, const Desk& desk, float scale) const;
+    void draw(const CanvasPlace& place, const Session& session, const WindowState& windowState,
+              float scale) const;
 
     /// A button is held over the canvas: the frame must keep up.
     bool busy() const { return holds_ != Holds::nothing; }
 
   private:
     enum class Holds { nothing, orbit, pan, fly, gizmo, wipe };
-    void press(const CanvasPlace& place, Session& session, const Desk& desk, float scale);
+    void press(const CanvasPlace& place, Session& session, const WindowState& windowState, float scale);
     void drag(const CanvasPlace& place, Session& session, bool snap);
     void release(const CanvasPlace& place, Session& session, float scale);
     void fly(const Window& window, Session& session);

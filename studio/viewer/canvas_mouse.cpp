@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "studio/viewer/hand.h"
+#include "studio/viewer/canvas_mouse.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,12 +49,12 @@ std::optional<std::size_t> lightAt(const Session& session, const Projection& pro
     return {};
 }
 
-void Hand::update(const CanvasPlace& place, const Window& window, Session& session, const Desk& desk,
-                  float scale) {
+void CanvasMouse::update(const CanvasPlace& place, const Window& window, Session& session,
+                         const WindowState& windowState, float scale) {
     const ImGuiIO& io = ImGui::GetIO();
     if (holds_ == Holds::nothing) {
         if (!io.WantCaptureMouse && place.contains(io.MousePos)) {
-            press(place, session, desk, scale);
+            press(place, session, windowState, scale);
             if (io.MouseWheel != 0) {
                 session.freeCamera().zoom(io.MouseWheel);
                 session.changedView();
@@ -73,7 +73,8 @@ void Hand::update(const CanvasPlace& place, const Window& window, Session& sessi
     if (!ImGui::IsMouseDown(button)) release(place, session, scale);
 }
 
-void Hand::press(const CanvasPlace& place, Session& session, const Desk& desk, float scale) {
+void CanvasMouse::press(const CanvasPlace& place, Session& session, const WindowState& windowState,
+                        float scale) {
     const ImVec2 cursor = ImGui::GetIO().MousePos;
     last_ = cursor;
     travelled_ = 0;
@@ -90,16 +91,16 @@ void Hand::press(const CanvasPlace& place, Session& session, const Desk& desk, f
         const std::vector<Light>& lights = session.document().moment().lights;
         const std::size_t selected = session.choices().light;
         if (selected >= lights.size()) return;
-        const auto handles = Gizmo::handles(lights[selected], desk.gizmoMode, projectionOf(session, place),
-                                            session.document().bounds(), scale);
+        const auto handles = Gizmo::handles(lights[selected], windowState.gizmoMode,
+                                            projectionOf(session, place), session.document().bounds(), scale);
         if (const auto axis = Gizmo::pick(handles, toCanvas(place, cursor), scale)) {
-            gizmo_.begin(lights[selected], desk.gizmoMode, *axis, toCanvas(place, cursor));
+            gizmo_.begin(lights[selected], windowState.gizmoMode, *axis, toCanvas(place, cursor));
             holds_ = Holds::gizmo;
         }
     }
 }
 
-void Hand::drag(const CanvasPlace& place, Session& session, bool snap) {
+void CanvasMouse::drag(const CanvasPlace& place, Session& session, bool snap) {
     const ImVec2 cursor = ImGui::GetIO().MousePos;
     const ImVec2 way(cursor.x - last_.x, cursor.y - last_.y);
     if (way.x == 0 && way.y == 0) return;
@@ -132,7 +133,7 @@ void Hand::drag(const CanvasPlace& place, Session& session, bool snap) {
     }
 }
 
-void Hand::release(const CanvasPlace& place, Session& session, float scale) {
+void CanvasMouse::release(const CanvasPlace& place, Session& session, float scale) {
     const bool clicked = travelled_ < clickReach;
     const Holds held = holds_;
     holds_ = Holds::nothing;
@@ -149,7 +150,7 @@ void Hand::release(const CanvasPlace& place, Session& session, float scale) {
         std::clamp(int(cursor.y / place.size.y * float(session.height_px())), 0, session.height_px() - 1));
 }
 
-void Hand::fly(const Window& window, Session& session) {
+void CanvasMouse::fly(const Window& window, Session& session) {
     glm::vec3 way(0);
     const auto add = [&](int key, const glm::vec3& direction) {
         if (window.isDown(key)) way += direction;
@@ -169,7 +170,8 @@ void Hand::fly(const Window& window, Session& session) {
     session.changedView();
 }
 
-void Hand::draw(const CanvasPlace& place, const Session& session, const Desk& desk, float scale) const {
+void CanvasMouse::draw(const CanvasPlace& place, const Session& session, const WindowState& windowState,
+                       float scale) const {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.PushClipRect(place.min, {place.min.x + place.size.x, place.min.y + place.size.y});
     const Choices& choices = session.choices();
@@ -200,13 +202,13 @@ void Hand::draw(const CanvasPlace& place, const Session& session, const Desk& de
         }
     }
     if (choices.light < lights.size()) {
-        for (const Gizmo::Handle& handle :
-             Gizmo::handles(lights[choices.light], desk.gizmoMode, projection, document.bounds(), scale)) {
+        for (const Gizmo::Handle& handle : Gizmo::handles(lights[choices.light], windowState.gizmoMode,
+                                                          projection, document.bounds(), scale)) {
             const ImU32 color = axisColor(handle.axis);
             for (std::size_t k = 1; k < handle.line_px.size(); ++k) {
                 list.AddLine(screen(handle.line_px[k - 1]), screen(handle.line_px[k]), color, 2.2f * scale);
             }
-            if (desk.gizmoMode != Gizmo::Mode::turn) {
+            if (windowState.gizmoMode != Gizmo::Mode::turn) {
                 list.AddCircleFilled(screen(handle.line_px.back()), 5 * scale, color);
             }
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "studio/viewer/light_book.h"
+#include "studio/viewer/edited_lights.h"
 
 #include <fmt/format.h>
 
@@ -186,42 +186,38 @@ void setSize(Light& light, float AreaLight::*size, float value) {
     setUnit(light);
 }
 
-void LightBook::apply(SceneMoment& moment) const {
-    if (edited_) moment.lights = *edited_;
+void EditedLights::apply(SceneMoment& moment) const {
+    if (state_) moment.lights = state_->lights;
 }
 
-void LightBook::edit(std::vector<Light> lights) {
+void EditedLights::edit(std::vector<Light> lights) {
     makeNamesUnique(lights);
-    written_.clear();
-    for (const Light& light : lights) {
-        written_.push_back(stated(light));
-    }
-    edited_ = throughText(written_);
-    unsaved_ = true;
+    auto state = std::make_shared<State>();
+    for (const Light& light : lights) state->written.push_back(stated(light));
+    state->lights = throughText(state->written);
+    state_ = std::move(state);
 }
 
-void LightBook::revert() {
-    written_.clear();
-    edited_.reset();
-    unsaved_ = false;
+std::vector<SidecarLight> EditedLights::written() const {
+    return state_ ? state_->written : std::vector<SidecarLight>();
 }
 
-void LightBook::save(const Scene& scene, const fs::path& file) {
-    write(filesOf(scene, written_, file.stem().stem().string(), nodesOf(file)), file);
-    unsaved_ = false;
+void EditedLights::save(const Scene& scene, const fs::path& file) {
+    write(filesOf(scene, written(), file.stem().stem().string(), nodesOf(file)), file);
+    saved_ = state_;
 }
 
-fs::path LightBook::snapshot(const Scene& scene, const fs::path& folder, const fs::path& sidecar) const {
+fs::path EditedLights::snapshot(const Scene& scene, const fs::path& folder, const fs::path& sidecar) const {
     std::error_code error;
     fs::create_directories(folder, error);
     const std::vector<SidecarNode> nodes = nodesOf(sidecar);
-    LightFiles files = filesOf(scene, written_, "lights", nodes);
+    LightFiles files = filesOf(scene, written(), "lights", nodes);
     ContentHasher hasher;
     hasher.addArray(files.text);
     for (const auto& [name, picture] : files.pictures) hasher.addArray(picture.values);
     for (const auto& [name, text] : files.profiles) hasher.addArray(text);
     const std::string stem = hasher.hash().hex();
-    files = filesOf(scene, written_, stem, nodes);
+    files = filesOf(scene, written(), stem, nodes);
     const fs::path file = folder / (stem + ".lights.json");
     if (!fs::exists(file, error)) write(files, file);
     return file;

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,19 +25,25 @@ void changeShape(Light& light, LightShape shape);
 /// and the illuminance that the light gives from afar stays. A luminaire keeps the size that its file says.
 void setSize(Light& light, float AreaLight::*size, float value);
 
-class LightBook {
+class EditedLights {
   public:
+    struct State;
+
     /// Puts the edited lights, if there are any, in place of the moment's own.
     void apply(SceneMoment& moment) const;
 
-    bool edited() const { return edited_.has_value(); }
+    bool edited() const { return state_ != nullptr; }
     /// Since the last save.
-    bool unsaved() const { return unsaved_; }
+    bool unsaved() const { return state_ != saved_; }
 
     /// Takes `lights` as they are wanted. Names are made unique. Textures are kept.
     void edit(std::vector<Light> lights);
     /// The scene's own lights again.
-    void revert();
+    void revert() { state_ = nullptr; }
+
+    /// What undo comes back to. Equal states are the same object; null: the scene's own lights.
+    const std::shared_ptr<const State>& state() const { return state_; }
+    void restore(std::shared_ptr<const State> state) { state_ = std::move(state); }
 
     /// Writes the edited lights to a sidecar, textures as PNG files beside it; what `file` says of nodes is
     /// kept. Whoever reads it gets the lights that are shown, bit for bit. Throws OutputError.
@@ -48,11 +54,16 @@ class LightBook {
                                    const std::filesystem::path& sidecar) const;
 
   private:
+    std::vector<SidecarLight> written() const;
+
+    std::shared_ptr<const State> state_, saved_;
+};
+
+struct EditedLights::State {
     /// As they were given to be written. Their rotations, turned into quaternions once more, would differ in
     /// the last bit, so that saving must begin from the same numbers as showing did.
-    std::vector<SidecarLight> written_;
-    std::optional<std::vector<Light>> edited_;  ///< what reading the file gives
-    bool unsaved_ = false;
+    std::vector<SidecarLight> written;
+    std::vector<Light> lights;  ///< what reading the file gives
 };
 
 }  // namespace penumbra::studio::viewer
