@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hand-written list: name -> factory. Adding a technique is adding a line here.
+#include "src/catalog.h"
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -24,6 +25,7 @@ namespace {
 
 struct Entry {
     TechniqueInfo info;
+    float rampRmse;  ///< see rampRmseOf
     std::unique_ptr<Technique> (*make)(Device&);
     std::span<const Promise> promises = {};
 };
@@ -34,33 +36,41 @@ std::unique_ptr<Technique> make(Device& device) {
 }
 
 constexpr std::array entries = {
-    Entry{{"hard", "one shadow map from the light's centre: no penumbra (Williams 1978)", 0.30f},
-          make<HardShadowMap>,
-          HardShadowMap::promises},
-    Entry{{"pcf", "a shadow map filtered over a fixed kernel (Reeves et al. 1987)", 0.30f}, make<Pcf>},
-    Entry{{"pcss", "blocker search, then a filter as wide as the penumbra (Fernando 2005)", 0.02f},
-          make<Pcss>,
-          Pcss::promises},
-    Entry{{"shadow-width", "distances to the shadow's border beside one shadow map (Kirsch and Döllner 2003)",
-           0.03f},
-          make<ShadowWidthMap>},
-    Entry{{"smoothies", "geometry on silhouettes fades the edges of a shadow map (Chan and Durand 2003)",
-           0.02f},
-          make<Smoothies>},
-    Entry{{"uniform", "n x n shadow maps from all over the light (Schwaerzler et al. 2012)", 0.03f},
-          make<UniformLightSampling>},
+    Entry{{"hard", "one shadow map from the light's centre: no penumbra (Williams 1978)"},
+          0.30f,
+          make<shadow_map::HardShadowMap>,
+          shadow_map::HardShadowMap::promises},
+    Entry{{"pcf", "a shadow map filtered over a fixed kernel (Reeves et al. 1987)"},
+          0.30f,
+          make<shadow_map::Pcf>},
+    Entry{{"pcss", "blocker search, then a filter as wide as the penumbra (Fernando 2005)"},
+          0.02f,
+          make<shadow_map::Pcss>,
+          shadow_map::Pcss::promises},
+    Entry{
+        {"shadow-width", "distances to the shadow's border beside one shadow map (Kirsch and Döllner 2003)"},
+        0.03f,
+        make<shadow_width_map::ShadowWidthMap>},
+    Entry{{"smoothies", "geometry on silhouettes fades the edges of a shadow map (Chan and Durand 2003)"},
+          0.02f,
+          make<smoothies::Smoothies>},
+    Entry{{"uniform", "n x n shadow maps from all over the light (Schwaerzler et al. 2012)"},
+          0.03f,
+          make<light_sampling::UniformLightSampling>},
     Entry{{"adaptive",
-           "as many shadow maps from all over the light as the view needs (Schwaerzler et al. 2012)", 0.03f},
-          make<AdaptiveLightSampling>},
-    Entry{{"hard-volumes", "shadow volumes of the light's centre: edges as sharp as the picture (Crow 1977)",
-           0.30f},
-          make<HardVolumes>},
-    Entry{{"soft-volumes", "layers counted from the edges of penumbra wedges (after Assarsson et al. 2003)",
-           0.01f},
-          make<SoftVolumes>},
-    Entry{{"exact", "samples of the light, each decided exactly, from triangles without maps", 0.02f},
-          make<ExactVisibility>,
-          ExactVisibility::promises},
+           "as many shadow maps from all over the light as the view needs (Schwaerzler et al. 2012)"},
+          0.03f,
+          make<light_sampling::AdaptiveLightSampling>},
+    Entry{{"hard-volumes", "shadow volumes of the light's centre: edges as sharp as the picture (Crow 1977)"},
+          0.30f,
+          make<soft_shadow_volumes::HardVolumes>},
+    Entry{{"soft-volumes", "layers counted from the edges of penumbra wedges (after Assarsson et al. 2003)"},
+          0.01f,
+          make<soft_shadow_volumes::SoftVolumes>},
+    Entry{{"exact", "samples of the light, each decided exactly, from triangles without maps"},
+          0.02f,
+          make<exact_visibility::ExactVisibility>,
+          exact_visibility::ExactVisibility::promises},
 };
 
 std::unique_ptr<Technique> makeAutomatic(Device& device) {
@@ -73,8 +83,8 @@ std::unique_ptr<Technique> makeAutomatic(Device& device) {
 }
 
 constexpr TechniqueInfo automatic = {
-    "auto", "whatever keeps an error, or a time, at the least cost; the settings of the others follow",
-    0.02f};
+    "auto", "whatever keeps an error, or a time, at the least cost; the settings of the others follow"};
+constexpr float rampRmseOfAutomatic = 0.02f;
 
 constexpr auto infos = [] {
     std::array<TechniqueInfo, entries.size() + 1> result;
@@ -87,6 +97,12 @@ constexpr auto infos = [] {
 
 std::span<const TechniqueInfo> techniqueCatalog() {
     return infos;
+}
+
+float rampRmseOf(std::string_view technique) {
+    const auto found =
+        std::ranges::find(entries, technique, [](const Entry& entry) { return entry.info.name; });
+    return found == entries.end() ? rampRmseOfAutomatic : found->rampRmse;
 }
 
 std::span<const Promise> promisesOf(std::string_view technique) {

@@ -5,17 +5,12 @@
 #include <limits>
 #include <set>
 
+#include "src/catalog.h"
 #include "studio/scene/builtin/builtin.h"
 #include "tests/support/technique_test.h"
 
 namespace penumbra::studio {
 namespace {
-
-std::vector<std::string> catalogNames() {
-    std::vector<std::string> names;
-    for (const TechniqueInfo& info : techniqueCatalog()) names.emplace_back(info.name);
-    return names;
-}
 
 class Contract : public TechniqueTest, public ::testing::WithParamInterface<std::string> {
   protected:
@@ -23,16 +18,9 @@ class Contract : public TechniqueTest, public ::testing::WithParamInterface<std:
     /// For promises that hold with any settings and are tested in many scenes: `uniform` draws 25 maps there
     /// instead of 289.
     Settings quick() const { return name() == "uniform" ? Settings{{"samples", "5"}} : Settings{}; }
-    float rampRmse() const {
-        return std::ranges::find(techniqueCatalog(), name(), &TechniqueInfo::name)->rampRmse;
-    }
 };
 
-INSTANTIATE_TEST_SUITE_P(Catalog, Contract, ::testing::ValuesIn(catalogNames()), [](const auto& test) {
-    std::string name = test.param;
-    std::erase(name, '-');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Catalog, Contract, everyTechnique(), techniqueTestName);
 
 Scene withoutCasters(Scene scene) {
     return withMoment(std::move(scene), [](SceneMoment& moment) {
@@ -133,7 +121,7 @@ TEST_P(Contract, RampOfAHalfPlaneIsAsGoodAsPromised) {
         }
     }
     ASSERT_GT(samples, 1000);
-    EXPECT_LE(std::sqrt(squares / samples), rampRmse());
+    EXPECT_LE(std::sqrt(squares / samples), rampRmseOf(name()));
 }
 
 TEST_P(Contract, UmbraAndLitAreasOfAHalfPlaneAreRight) {

@@ -16,18 +16,7 @@ using test::NastyHost;
 
 class StateOfEveryTechnique : public HostTest, public ::testing::WithParamInterface<std::string> {};
 
-std::vector<std::string> catalogNames() {
-    std::vector<std::string> names;
-    for (const TechniqueInfo& info : techniqueCatalog()) names.emplace_back(info.name);
-    return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Catalog, StateOfEveryTechnique, ::testing::ValuesIn(catalogNames()),
-                         [](const auto& test) {
-                             std::string name = test.param;
-                             std::erase(name, '-');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Catalog, StateOfEveryTechnique, everyTechnique(), techniqueTestName);
 
 TEST_P(StateOfEveryTechnique, IsNeitherTrustedNorChanged) {
     class Looker final : public InspectionVisitor {

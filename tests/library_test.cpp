@@ -172,7 +172,7 @@ TEST_F(ConventionTest, NormalsAndReceiverMaskAreOptional) {
 TEST_F(LibraryTest, LayersDrawnAtOnceAndOneByOneAreTheSame) {
     const Scene scene = makeBuiltin("columns");
     const LightResult atOnce = render("hard", scene);
-    bool& layered = workbench().device().internals().layerFromVertexShader;
+    bool& layered = internalsOf(workbench().device()).layerFromVertexShader;
     if (!layered) GTEST_SKIP() << "this driver draws layers one by one anyway";
     layered = false;
     const LightResult oneByOne = render("hard", scene);

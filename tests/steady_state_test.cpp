@@ -88,17 +88,7 @@ std::string callsCounted(std::string_view technique) {
 
 class SteadyState : public HostTest, public ::testing::WithParamInterface<std::string> {};
 
-std::vector<std::string> catalogNames() {
-    std::vector<std::string> names;
-    for (const TechniqueInfo& info : techniqueCatalog()) names.emplace_back(info.name);
-    return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Catalog, SteadyState, ::testing::ValuesIn(catalogNames()), [](const auto& test) {
-    std::string name = test.param;
-    std::erase(name, '-');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Catalog, SteadyState, everyTechnique(), techniqueTestName);
 
 TEST_P(SteadyState, AllocatesCompilesAndReadsNothing) {
     ShadowInputs inputs = drawScene({64, 48});

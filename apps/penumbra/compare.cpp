@@ -13,9 +13,9 @@
 #include <set>
 
 #include "apps/penumbra/arguments.h"
-#include "penumbra/version.h"
 #include "apps/penumbra/asked_for.h"
 #include "apps/penumbra/commands.h"
+#include "penumbra/version.h"
 #include "studio/bench/bench_report.h"
 #include "studio/bench/judge.h"
 #include "studio/errors.h"

@@ -18,9 +18,9 @@
 #include <new>
 #include <span>
 
-#include "penumbra/version.h"
 #include "apps/penumbra/commands.h"
 #include "penumbra/device.h"
+#include "penumbra/version.h"
 #include "studio/context/headless_context.h"
 #include "studio/errors.h"
 #include "studio/image/atomic_file.h"

@@ -30,7 +30,7 @@ struct ReproduceArguments {
     std::string paper;
     SceneArguments view{.size = "480x270"};
     std::string output;
-    PressOptions press;
+    ReproductionOptions options;
 };
 
 /// One of them, or "all". Throws UsageError.
@@ -50,25 +50,25 @@ std::vector<Paper> papersOf(const std::string& name) {
 
 void reproducePapers(const ReproduceArguments& arguments, const std::string& commandLine) {
     const std::vector<Paper> chosen = papersOf(arguments.paper);
-    PressOptions press = arguments.press;
-    press.size = arguments.view.pictureSize();
-    if (!press.models.empty() && !std::filesystem::is_directory(press.models)) {
+    ReproductionOptions options = arguments.options;
+    options.size = arguments.view.pictureSize();
+    if (!options.models.empty() && !std::filesystem::is_directory(options.models)) {
         throw InputError(fmt::format("--models '{}' is no folder; without it built-in scenes stand in",
-                                     press.models.string()));
+                                     options.models.string()));
     }
     requireWritableFolder(arguments.output, true);
     Workbench workbench(arguments.view.device);
-    workbench.requireSize(press.size);
+    workbench.requireSize(options.size);
     const Machine machine = thisMachine(workbench);
     for (const Paper& paper : chosen) {
         Progress progress(paper.name);
-        press.progress = [&](double share, const std::string& part) {
+        options.progress = [&](double share, const std::string& part) {
             progress.update(share);
             spdlog::info("{}: {}", paper.name, part);
         };
-        const PaperResult result = reproduce(workbench, paper, press);
+        const PaperResult result = reproduce(workbench, paper, options);
         writeFileAtomically(std::filesystem::path(arguments.output) / (paper.name + ".html"),
-                            toHtml(result, machine, press, commandLine));
+                            toHtml(result, machine, options, commandLine));
         std::cout << judgements(result) << std::flush;
     }
 }
@@ -86,13 +86,13 @@ void addReproduce(CLI::App& app, const std::string& commandLine) {
     command->add_option("-o,--output", arguments->output, "a folder for PAPER.html")->required();
     command->add_option("--size", arguments->view.size, "WIDTHxHEIGHT in pixels of every picture")
         ->capture_default_str();
-    command->add_option("--samples", arguments->press.samples, "rays for each pixel of the truth")
+    command->add_option("--samples", arguments->options.samples, "rays for each pixel of the truth")
         ->capture_default_str()
         ->check(CLI::Range(2, 65536));
-    command->add_option("--rounds", arguments->press.rounds, "measured rounds for each cost")
+    command->add_option("--rounds", arguments->options.rounds, "measured rounds for each cost")
         ->capture_default_str()
         ->check(CLI::Range(1, 10000));
-    command->add_option("--models", arguments->press.models,
+    command->add_option("--models", arguments->options.models,
                         "a folder of models (see docs/command-line.md); without it built-in scenes stand in");
     command->add_option("--device", arguments->view.device, "index from 'penumbra list devices'");
     command->callback([arguments, commandLine] { reproducePapers(*arguments, commandLine); });

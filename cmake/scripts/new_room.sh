@@ -43,7 +43,7 @@ cat >"$folder/$file.h" <<EOF
 #include "src/gl/program.h"
 #include "src/techniques/common/view_constants.h"
 
-namespace penumbra {
+namespace penumbra::$room {
 
 class $class final : public Technique {
   public:
@@ -59,7 +59,7 @@ class $class final : public Technique {
     gl::PassTimers timers_;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::$room
 EOF
 cat >"$folder/$file.cpp" <<EOF
 // SPDX-License-Identifier: Apache-2.0
@@ -67,33 +67,30 @@ cat >"$folder/$file.cpp" <<EOF
 
 #include "src/device/device_internals.h"
 
-namespace penumbra {
+namespace penumbra::$room {
 
-$class::$class(Device& device) : resolve_(device.internals().shaders, {"$folder/$file.comp.glsl"}) {}
+$class::$class(Device& device) : resolve_(internalsOf(device).shaders, {"$folder/$file.comp.glsl"}) {}
 
 void $class::describe(ParameterVisitor&) {}
 
 void $class::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const auto pass = timers_.pass("$technique/resolve");
-    resolve_.use();
-    view_.bind(inputs.view, lightFromWorld(inputs));
-    bindVisibility(out, 0);
-    gl::dispatchPixels(out.width_px(), out.height_px());
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+    view_.fill(inputs.view, lightFromWorld(inputs));
+    gl::Pass(resolve_).bind(view_).bind("visibility", imageOf(out)).dispatchPixels(out.width_px(), out.height_px());
 }
 
 Statistics $class::statistics() const {
     return {.counts = {}, .passes = passTimes(timers_)};
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::$room
 EOF
 cat >"$folder/$file.comp.glsl" <<EOF
 // SPDX-License-Identifier: Apache-2.0
 #version 450
 #include "src/techniques/common/view.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform writeonly image2D visibility;
+uniform writeonly image2D visibility;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -124,7 +121,7 @@ EOF
 
 # The catalog lists techniques; CMake finds rooms by itself.
 sed -i "0,/^#include \"src\/techniques\//s//#include \"src\/techniques\/$room\/$file.h\"\n&/" src/catalog.cpp
-sed -i "/^constexpr std::array entries/,/^};\$/ s/^};\$/    Entry{{\"$technique\", \"what it does, in one line (author year)\", 0.30f}, make<$class>},\n};/" \
+sed -i "/^constexpr std::array entries/,/^};\$/ s/^};\$/    Entry{{\"$technique\", \"what it does, in one line (author year)\"}, 0.30f, make<$room::$class>},\n};/" \
     src/catalog.cpp
 
 cat <<EOF

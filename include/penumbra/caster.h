@@ -91,11 +91,11 @@ class PENUMBRA_API Mesh {
     std::uint32_t indexBuffer() const;
 
     struct Internals;
-    /// Throws Error::Kind::badArgument where the mesh was moved from.
-    Internals& internals() const;
 
   private:
     Mesh();
+    /// Throws Error::Kind::badArgument where the mesh was moved from.
+    Internals& internals() const;
     std::unique_ptr<Internals> internals_;
 };
 

@@ -56,11 +56,11 @@ class PENUMBRA_API VisibilityBuffer {
     std::uint32_t texture() const;  ///< owned by the buffer, or the host's
 
     struct Internals;
-    /// Throws Error::Kind::badArgument where the buffer was moved from.
-    Internals& internals() const;
 
   private:
     VisibilityBuffer();
+    /// Throws Error::Kind::badArgument where the buffer was moved from.
+    Internals& internals() const;
     std::unique_ptr<Internals> internals_;
 };
 
@@ -137,9 +137,6 @@ class PENUMBRA_API Technique {
 struct TechniqueInfo {
     std::string_view name;     ///< as on the command line: "hard"
     std::string_view summary;  ///< one line
-    /// The root mean square error of visibility that it promises at most in the penumbra of a straight edge,
-    /// where the truth is known in closed form. 0.29 is what a hard edge makes of a linear ramp.
-    float rampRmse;
 };
 
 /// All techniques of the catalog, in the order in which they are listed.

@@ -39,16 +39,16 @@ std::string text(GLenum name) {
 }
 
 gl::DebugLog startLog(std::function<void(LogLevel, std::string_view)>&& log,
-                      const std::shared_ptr<gl::Ledger>& ledger) {
+                      const std::shared_ptr<gl::ObjectRegistry>& registry) {
     requireOpenGL45();
-    ledger->context = gl::ContextIdentity::ofCurrent();
-    return gl::DebugLog(std::move(log), ledger);
+    registry->context = gl::ContextIdentity::ofCurrent();
+    return gl::DebugLog(std::move(log), registry);
 }
 
 }  // namespace
 
 Device::Internals::Internals(DeviceOptions options)
-    : log(startLog(std::move(options.log), ledger)),
+    : log(startLog(std::move(options.log), registry)),
       shaders(std::move(options.shaderSourceDirectory)),
       renderer(text(GL_RENDERER)),
       openGLVersion(text(GL_VERSION)),
@@ -59,7 +59,7 @@ Device::Internals::Internals(DeviceOptions options)
       isCompatibilityContext(penumbra::isCompatibilityContext()),
       keepHostState(options.keepHostState),
       diagnoses(options.diagnose),
-      shareGroup(options.shared != nullptr ? options.shared->internals().shareGroup
+      shareGroup(options.shared != nullptr ? internalsOf(*options.shared).shareGroup
                                            : std::make_shared<ShareGroup>()) {
     for (const char* name : {"llvmpipe", "softpipe", "SwiftShader"}) {
         isSoftware |= renderer.find(name) != std::string::npos;
@@ -81,11 +81,11 @@ void Device::Internals::requireContext() const {
                     "the Device is destroyed on which this was made: keep it for as long as its techniques, "
                     "meshes and visibility buffers are used");
     }
-    if (ledger->contextLost) {
+    if (registry->contextLost) {
         throw Error(Error::Kind::lostContext,
                     "the device was abandoned: make a new Device, and new meshes and techniques on it");
     }
-    if (ledger->context.isCurrent()) return;
+    if (registry->context.isCurrent()) return;
     throw Error(Error::Kind::noOpenGL,
                 gl::ContextIdentity::ofCurrent().exists()
                     ? "another OpenGL context is current than the device's: make the device's current "
@@ -96,11 +96,11 @@ void Device::Internals::requireContext() const {
 
 void Device::Internals::outliveDevice() {
     isDeviceGone = true;
-    if (!ledger->isReachable() && !ledger->contextLost) {
+    if (!registry->isReachable() && !registry->contextLost) {
         log.write(LogLevel::warning,
                   "the Device is destroyed while its OpenGL context is not current: what it has there is "
                   "left to the context");
-        ledger->contextLost = true;
+        registry->contextLost = true;
     }
     log.close();
 }
@@ -140,10 +140,10 @@ int Device::severeMessageCount() const {
     return internals().log.severeMessageCount();
 }
 std::size_t Device::memory_bytes() const {
-    return internals().ledger->size_bytes;
+    return internals().registry->size_bytes;
 }
 void Device::abandon() {
-    internals().ledger->contextLost = true;
+    internals().registry->contextLost = true;
 }
 void Device::reloadShaders() {
     const HostScope scope(internals());

@@ -23,6 +23,9 @@ struct ShareGroup {
 struct Device::Internals : std::enable_shared_from_this<Device::Internals> {
     explicit Internals(DeviceOptions options);
 
+    /// Throws Error::Kind::lostContext where the device was moved from.
+    static Internals& of(const Device& device) { return device.internals(); }
+
     /// Throws Error::Kind::lostContext where the device was given up or is gone, and noOpenGL where another
     /// context than its own is current, or none.
     void requireContext() const;
@@ -33,7 +36,7 @@ struct Device::Internals : std::enable_shared_from_this<Device::Internals> {
     /// The host's Device is destroyed.
     void outliveDevice();
 
-    std::shared_ptr<gl::Ledger> ledger = std::make_shared<gl::Ledger>();
+    std::shared_ptr<gl::ObjectRegistry> registry = std::make_shared<gl::ObjectRegistry>();
     gl::DebugLog log;
     gl::ShaderLibrary shaders;
     std::string renderer;
@@ -53,5 +56,9 @@ struct Device::Internals : std::enable_shared_from_this<Device::Internals> {
     std::shared_ptr<ShareGroup> shareGroup;
     std::optional<gl::Program> gatherVertices;  ///< see geometry/host_buffers.cpp; made when first needed
 };
+
+inline Device::Internals& internalsOf(const Device& device) {
+    return Device::Internals::of(device);
+}
 
 }  // namespace penumbra

@@ -25,8 +25,8 @@ void reportPendingErrors(const gl::DebugLog& log) {
 }
 
 /// What was destroyed while the context was not current.
-void deleteOrphans(gl::Ledger& ledger) {
-    for (const auto& [destroy, name] : std::exchange(ledger.orphans, {})) destroy(name);
+void deleteOrphans(gl::ObjectRegistry& registry) {
+    for (const auto& [destroy, name] : std::exchange(registry.orphans, {})) destroy(name);
 }
 
 void requireNoTransformFeedback() {
@@ -51,12 +51,12 @@ void requireImmediateRendering() {
 
 }  // namespace
 
-HostScope::HostScope(const Device::Internals& device) : ledger_(device.ledger) {
+HostScope::HostScope(const Device::Internals& device) : registry_(device.registry) {
     device.requireContext();
     reportPendingErrors(device.log);
     if (device.isCompatibilityContext) requireImmediateRendering();
     requireNoTransformFeedback();
-    deleteOrphans(*device.ledger);
+    deleteOrphans(*device.registry);
     if (glIsEnabled(GL_POLYGON_OFFSET_FILL)) {
         glGetFloatv(GL_POLYGON_OFFSET_FACTOR, &polygonOffset_.factor);
         glGetFloatv(GL_POLYGON_OFFSET_UNITS, &polygonOffset_.units);

@@ -21,7 +21,7 @@ class HostScope {
     PolygonOffset hostsPolygonOffset() const { return polygonOffset_; }
 
   private:
-    gl::LedgerScope ledger_;
+    gl::ObjectRegistryScope registry_;
     PolygonOffset polygonOffset_;
     std::optional<HostState> state_;
 };

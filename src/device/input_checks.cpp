@@ -99,7 +99,7 @@ void checkLight(const AreaLight& light) {
 
 void checkOutput(const VisibilityBuffer& out, const View& view, const AreaLight& light,
                  const Device::Internals& device) {
-    const VisibilityBuffer::Internals& internals = out.internals();
+    const VisibilityBuffer::Internals& internals = internalsOf(out);
     if (internals.device.get() != &device)
         refuse("VisibilityBuffer:",
                "it is of another device than the technique: make one on the same device");

@@ -81,13 +81,13 @@ VisibilityBuffer VisibilityBuffer::Internals::make(Device::Internals& device, in
 }
 
 VisibilityBuffer::VisibilityBuffer(Device& device, int width_px, int height_px, bool colored)
-    : VisibilityBuffer(Internals::make(device.internals(), width_px, height_px, colored)) {}
+    : VisibilityBuffer(Internals::make(internalsOf(device), width_px, height_px, colored)) {}
 
 VisibilityBuffer::VisibilityBuffer(Device& device, const HostTexture& host, bool colored)
     : VisibilityBuffer() {
-    requireSize(device.internals(), host.width_px, host.height_px);
-    const HostScope scope(device.internals());
-    internals_->device = device.internals().shared_from_this();
+    requireSize(internalsOf(device), host.width_px, host.height_px);
+    const HostScope scope(internalsOf(device));
+    internals_->device = internalsOf(device).shared_from_this();
     internals_->host = host;
     internals_->colored = colored;
     internals_->format = writableFormatOf(host, colored);
@@ -108,7 +108,7 @@ void VisibilityBuffer::resize(int width_px, int height_px) {
     requireSize(*internals().device, width_px, height_px);
     require(internals().host.texture == 0, "one that writes into the host's texture cannot be resized");
     if (texture() != 0 && width_px == this->width_px() && height_px == this->height_px()) return;
-    const gl::LedgerScope scope(internals().device->ledger);
+    const gl::ObjectRegistryScope scope(internals().device->registry);
     internals().own = {};  // freed first, so that the two need not fit together
     internals().own = makeTexture(width_px, height_px, internals().format);
 }

@@ -18,6 +18,9 @@ struct VisibilityBuffer::Internals {
     bool colored = false;
     mutable gl::WriteRecord written;
 
+    /// Throws Error::Kind::badArgument where the buffer was moved from.
+    static Internals& of(const VisibilityBuffer& buffer) { return buffer.internals(); }
+
     /// One with a texture of its own, as the public constructor makes it.
     static VisibilityBuffer make(Device::Internals& device, int width_px, int height_px, bool colored);
 
@@ -26,5 +29,9 @@ struct VisibilityBuffer::Internals {
         return host.x_px == 0 && host.y_px == 0 && format == GLenum(colored ? GL_RGBA16F : GL_R32F);
     }
 };
+
+inline VisibilityBuffer::Internals& internalsOf(const VisibilityBuffer& buffer) {
+    return VisibilityBuffer::Internals::of(buffer);
+}
 
 }  // namespace penumbra

@@ -72,7 +72,7 @@ std::vector<std::uint32_t> capHoles(const EdgeTopology& topology) {
 }
 
 const Mesh& cappedOf(Device::Internals& device, const Mesh& mesh) {
-    Mesh::Internals& internals = mesh.internals();
+    Mesh::Internals& internals = internalsOf(mesh);
     if (!internals.capped) {
         std::vector<std::uint32_t> indices = capHoles(findEdges(mesh.positions(), mesh.indices()));
         indices.insert(indices.begin(), mesh.indices().begin(), mesh.indices().end());
@@ -82,7 +82,7 @@ const Mesh& cappedOf(Device::Internals& device, const Mesh& mesh) {
     }
     if (internals.capped->indices().size() == mesh.indices().size()) return mesh;
     if (internals.cappedRevision != mesh.revision()) {
-        internals.capped->internals().deform(device, {.buffer = mesh.positionBuffer()}, mesh.bounds());
+        internalsOf(*internals.capped).deform(device, {.buffer = mesh.positionBuffer()}, mesh.bounds());
         internals.cappedRevision = mesh.revision();
     }
     return *internals.capped;

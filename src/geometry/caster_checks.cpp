@@ -33,9 +33,9 @@ void checkCasters(std::span<const Caster> casters, const Device::Internals& devi
         const Caster& caster = casters[i];
         const Argument argument("ShadowInputs: casters", i, ".mesh");
         if (caster.mesh == nullptr) refuse(argument, "is null: give it a mesh, or leave the caster out");
-        const Mesh::Internals* const mesh = Mesh::Internals::of(*caster.mesh);
+        const Mesh::Internals* const mesh = Mesh::Internals::ifAny(*caster.mesh);
         if (mesh == nullptr) refuse(argument, "was moved from: point to the mesh that it was moved to");
-        if (mesh->device->isDeviceGone || mesh->device->ledger->contextLost)
+        if (mesh->device->isDeviceGone || mesh->device->registry->contextLost)
             refuse(argument, "is of a device that is destroyed or abandoned: make it anew");
         if (mesh->device->shareGroup != device.shareGroup) {
             refuse(argument,

@@ -14,7 +14,7 @@ EdgeMesh::EdgeMesh(const Mesh& mesh) {
 }
 
 const EdgeMesh& edgesOf(const Mesh& mesh) {
-    Mesh::Internals& internals = mesh.internals();
+    Mesh::Internals& internals = internalsOf(mesh);
     if (!internals.edges) internals.edges = std::make_unique<const EdgeMesh>(mesh);
     return *internals.edges;
 }

@@ -52,7 +52,7 @@ Mesh Mesh::Internals::make(Device::Internals& device, const Source& source) {
     requireTriangles(source.indices, source.positions.size());
     require(source.uvs.empty() || source.uvs.size() == source.positions.size(),
             "the number of uvs is not that of the positions");
-    const gl::LedgerScope scope(device.ledger);
+    const gl::ObjectRegistryScope scope(device.registry);
     Mesh mesh;
     Internals& made = *mesh.internals_;
     made.enter(device);
@@ -66,26 +66,26 @@ Mesh Mesh::Internals::make(Device::Internals& device, const Source& source) {
     return mesh;
 }
 
-Mesh::Mesh(Device& device, const Source& source) : Mesh(Internals::make(device.internals(), source)) {}
+Mesh::Mesh(Device& device, const Source& source) : Mesh(Internals::make(internalsOf(device), source)) {}
 
 Mesh Mesh::fromBuffers(Device& device, const HostSource& source) {
-    const HostScope scope(device.internals());
+    const HostScope scope(internalsOf(device));
     Mesh mesh;
     Internals& internals = *mesh.internals_;
-    internals.enter(device.internals());
+    internals.enter(internalsOf(device));
     internals.positions.resize(source.vertexCount);
     internals.indices.resize(source.indexCount);
     internals.positionBuffer = gl::Buffer(source.vertexCount * sizeof(Vec3), "mesh positions");
     internals.indexBuffer = gl::Buffer(source.indexCount * sizeof(std::uint32_t), "mesh indices");
-    gatherVectors(device.internals(), source.positions, source.vertexCount, 3, internals.positionBuffer,
+    gatherVectors(internalsOf(device), source.positions, source.vertexCount, 3, internals.positionBuffer,
                   "positions");
-    gatherIndices(device.internals(), source, internals.indexBuffer);
+    gatherIndices(internalsOf(device), source, internals.indexBuffer);
     internals.positionBuffer.read(std::as_writable_bytes(std::span(internals.positions)));
     internals.indexBuffer.read(std::as_writable_bytes(std::span(internals.indices)));
     if (source.uvs.buffer != 0) {
         internals.uvs.resize(source.vertexCount);
         internals.uvBuffer = gl::Buffer(source.vertexCount * sizeof(Vec2), "mesh uvs");
-        gatherVectors(device.internals(), source.uvs, source.vertexCount, 2, internals.uvBuffer, "uvs");
+        gatherVectors(internalsOf(device), source.uvs, source.vertexCount, 2, internals.uvBuffer, "uvs");
         internals.uvBuffer.read(std::as_writable_bytes(std::span(internals.uvs)));
     }
     requireFinite(internals.positions);
@@ -134,7 +134,7 @@ std::uint64_t Mesh::id() const {
     return internals().id;
 }
 std::span<const Vec3> Mesh::positions() const {
-    if (internals().positionsAreStale && internals().device->ledger->isReachable()) {
+    if (internals().positionsAreStale && internals().device->registry->isReachable()) {
         internals().positionBuffer.read(std::as_writable_bytes(std::span(internals().positions)));
         internals().positionsAreStale = false;
     }

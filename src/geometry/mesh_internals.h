@@ -30,13 +30,19 @@ struct Mesh::Internals {
     static Mesh make(Device::Internals& device, const Source& source);
     void deform(Device::Internals& device, const HostVectors& positions, const Box& bounds);
 
-    /// Null of one that was moved from.
-    static const Internals* of(const Mesh& mesh) { return mesh.internals_.get(); }
+    /// Throws Error::Kind::badArgument where the mesh was moved from.
+    static Internals& of(const Mesh& mesh) { return mesh.internals(); }
+    /// Null where it was moved from.
+    static const Internals* ifAny(const Mesh& mesh) { return mesh.internals_.get(); }
 
     void enter(Device::Internals& owner) {
         device = owner.shared_from_this();
         id = ++owner.shareGroup->meshesMade;
     }
 };
+
+inline Mesh::Internals& internalsOf(const Mesh& mesh) {
+    return Mesh::Internals::of(mesh);
+}
 
 }  // namespace penumbra

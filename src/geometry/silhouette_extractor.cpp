@@ -31,10 +31,10 @@ void require(std::size_t count, std::string_view things) {
 }  // namespace
 
 SilhouetteExtractor::SilhouetteExtractor(Device& device)
-    : facing_(device.internals().shaders, {"src/geometry/facing.comp.glsl"}),
-      mark_(device.internals().shaders, {"src/geometry/silhouette_mark.comp.glsl"}),
-      scan_(device.internals().shaders, {"src/geometry/silhouette_scan.comp.glsl"}),
-      write_(device.internals().shaders, {"src/geometry/silhouette_write.comp.glsl"}),
+    : facing_(internalsOf(device).shaders, {"src/geometry/facing.comp.glsl"}),
+      mark_(internalsOf(device).shaders, {"src/geometry/silhouette_mark.comp.glsl"}),
+      scan_(internalsOf(device).shaders, {"src/geometry/silhouette_scan.comp.glsl"}),
+      write_(internalsOf(device).shaders, {"src/geometry/silhouette_write.comp.glsl"}),
       commands_(sizeof(SilhouetteCommands), "silhouette commands") {}
 
 void SilhouetteExtractor::extract(std::span<const SilhouetteSource> sources, const LightPoint& point,

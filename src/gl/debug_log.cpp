@@ -3,8 +3,9 @@
 
 namespace penumbra::gl {
 
-DebugLog::DebugLog(std::function<void(LogLevel, std::string_view)> log, std::shared_ptr<const Ledger> ledger)
-    : ledger_(std::move(ledger)) {
+DebugLog::DebugLog(std::function<void(LogLevel, std::string_view)> log,
+                   std::shared_ptr<const ObjectRegistry> registry)
+    : registry_(std::move(registry)) {
     sink_->log = std::move(log);
     void* present = nullptr;
     glGetPointerv(GL_DEBUG_CALLBACK_FUNCTION, &present);
@@ -24,8 +25,8 @@ DebugLog::~DebugLog() {
 
 void DebugLog::close() {
     sink_->log = nullptr;
-    if (!std::exchange(installed_, false) || ledger_->contextLost) return;
-    if (!ledger_->isReachable()) {
+    if (!std::exchange(installed_, false) || registry_->contextLost) return;
+    if (!registry_->isReachable()) {
         sink_->itself = sink_;
         return;
     }

@@ -15,7 +15,8 @@ namespace penumbra::gl {
 /// has no callback of its own.
 class DebugLog {
   public:
-    DebugLog(std::function<void(LogLevel, std::string_view)> log, std::shared_ptr<const Ledger> ledger);
+    DebugLog(std::function<void(LogLevel, std::string_view)> log,
+             std::shared_ptr<const ObjectRegistry> registry);
     DebugLog(const DebugLog&) = delete;
     DebugLog& operator=(const DebugLog&) = delete;
     ~DebugLog();
@@ -41,7 +42,7 @@ class DebugLog {
     };
 
     std::shared_ptr<Sink> sink_ = std::make_shared<Sink>();
-    std::shared_ptr<const Ledger> ledger_;
+    std::shared_ptr<const ObjectRegistry> registry_;
     bool installed_ = false;
 };
 

@@ -19,7 +19,7 @@ class Fence {
     void set() {
         remove();
         sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-        ledger_ = LedgerScope::current();
+        registry_ = ObjectRegistryScope::current();
     }
     /// False, too, where it was never set.
     bool hasPassed() const {
@@ -31,12 +31,12 @@ class Fence {
   private:
     void remove() {
         // What cannot be deleted goes with its context.
-        if (sync_ != nullptr && (!ledger_ || ledger_->isReachable())) glDeleteSync(sync_);
+        if (sync_ != nullptr && (!registry_ || registry_->isReachable())) glDeleteSync(sync_);
         sync_ = nullptr;
     }
 
     GLsync sync_ = nullptr;
-    std::shared_ptr<Ledger> ledger_;
+    std::shared_ptr<ObjectRegistry> registry_;
 };
 
 }  // namespace penumbra::gl

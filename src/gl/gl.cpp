@@ -8,25 +8,25 @@
 namespace penumbra::gl {
 namespace {
 
-std::shared_ptr<Ledger>& threadsLedger() {
-    thread_local std::shared_ptr<Ledger> ledger;
-    return ledger;
+std::shared_ptr<ObjectRegistry>& threadsRegistry() {
+    thread_local std::shared_ptr<ObjectRegistry> registry;
+    return registry;
 }
 
 }  // namespace
 
-LedgerScope::LedgerScope(std::shared_ptr<Ledger> ledger)
-    : outer_(std::exchange(threadsLedger(), std::move(ledger))) {}
+ObjectRegistryScope::ObjectRegistryScope(std::shared_ptr<ObjectRegistry> registry)
+    : outer_(std::exchange(threadsRegistry(), std::move(registry))) {}
 
-LedgerScope::~LedgerScope() {
-    threadsLedger() = std::move(outer_);
+ObjectRegistryScope::~ObjectRegistryScope() {
+    threadsRegistry() = std::move(outer_);
 }
 
-const std::shared_ptr<Ledger>& LedgerScope::current() {
-    return threadsLedger();
+const std::shared_ptr<ObjectRegistry>& ObjectRegistryScope::current() {
+    return threadsRegistry();
 }
 
-std::pmr::memory_resource* LedgerScope::frameMemory() {
+std::pmr::memory_resource* ObjectRegistryScope::frameMemory() {
     return current() ? &current()->frameMemory : std::pmr::get_default_resource();
 }
 

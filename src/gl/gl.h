@@ -16,7 +16,7 @@
 namespace penumbra::gl {
 
 /// What a device's objects and frames have in common.
-struct Ledger {
+struct ObjectRegistry {
     std::size_t size_bytes = 0;  ///< that objects take
     bool contextLost = false;    ///< names mean nothing any more, and OpenGL must not be called for them
     ContextIdentity context;     ///< that objects belong to; of none: whichever is current
@@ -37,23 +37,23 @@ struct Ledger {
     std::pmr::unsynchronized_pool_resource frameMemory;
 };
 
-/// While it lives, objects made on this thread are entered in `ledger`. The thread's current ledger goes with
-/// its current context: like that, it is no argument of every constructor.
-class LedgerScope {
+/// While it lives, objects made on this thread are entered in `registry`. The thread's current registry goes
+/// with its current context: like that, it is no argument of every constructor.
+class ObjectRegistryScope {
   public:
-    explicit LedgerScope(std::shared_ptr<Ledger> ledger);
-    LedgerScope(const LedgerScope&) = delete;
-    LedgerScope& operator=(const LedgerScope&) = delete;
-    ~LedgerScope();
+    explicit ObjectRegistryScope(std::shared_ptr<ObjectRegistry> registry);
+    ObjectRegistryScope(const ObjectRegistryScope&) = delete;
+    ObjectRegistryScope& operator=(const ObjectRegistryScope&) = delete;
+    ~ObjectRegistryScope();
 
     /// Null outside of every scope.
-    static const std::shared_ptr<Ledger>& current();
+    static const std::shared_ptr<ObjectRegistry>& current();
 
-    /// The current ledger's; outside of every scope the standard one.
+    /// The current registry's; outside of every scope the standard one.
     static std::pmr::memory_resource* frameMemory();
 
   private:
-    std::shared_ptr<Ledger> outer_;
+    std::shared_ptr<ObjectRegistry> outer_;
 };
 
 /// A GL object name that is deleted with its owner. Move-only; 0 is no object.
@@ -61,22 +61,22 @@ template <void (*Delete)(GLuint)>
 class Handle {
   public:
     Handle() = default;
-    explicit Handle(GLuint name) : name_(name), ledger_(LedgerScope::current()) {}
+    explicit Handle(GLuint name) : name_(name), registry_(ObjectRegistryScope::current()) {}
     Handle(Handle&& other) noexcept
         : name_(std::exchange(other.name_, 0)),
           size_bytes_(std::exchange(other.size_bytes_, 0)),
-          ledger_(std::move(other.ledger_)) {}
+          registry_(std::move(other.registry_)) {}
     Handle& operator=(Handle&& other) noexcept {
         std::swap(name_, other.name_);
         std::swap(size_bytes_, other.size_bytes_);
-        std::swap(ledger_, other.ledger_);
+        std::swap(registry_, other.registry_);
         return *this;
     }
     ~Handle() {
-        if (ledger_) ledger_->size_bytes -= size_bytes_;
-        if (name_ == 0 || (ledger_ && ledger_->contextLost)) return;
-        if (ledger_ && !ledger_->isReachable()) {
-            ledger_->orphans.push_back({Delete, name_});
+        if (registry_) registry_->size_bytes -= size_bytes_;
+        if (name_ == 0 || (registry_ && registry_->contextLost)) return;
+        if (registry_ && !registry_->isReachable()) {
+            registry_->orphans.push_back({Delete, name_});
         } else {
             Delete(name_);
         }
@@ -85,15 +85,15 @@ class Handle {
 
     /// Enters the room that the object takes on the device; once.
     void enter(std::size_t size_bytes) {
-        if (!ledger_) return;
+        if (!registry_) return;
         size_bytes_ = size_bytes;
-        ledger_->size_bytes += size_bytes;
+        registry_->size_bytes += size_bytes;
     }
 
   private:
     GLuint name_ = 0;
     std::size_t size_bytes_ = 0;
-    std::shared_ptr<Ledger> ledger_;
+    std::shared_ptr<ObjectRegistry> registry_;
 };
 
 /// Names an object for debuggers and driver messages: "smoothies/depth".

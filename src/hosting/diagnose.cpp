@@ -206,10 +206,10 @@ Diagnosis diagnoseInScope(Device::Internals& device, const View& view, std::span
 }
 
 Diagnosis diagnose(Device& device, const View& view, std::span<const Caster> casters) {
-    const HostScope scope(device.internals());
+    const HostScope scope(internalsOf(device));
     checkView(view);
-    checkCasters(casters, device.internals());
-    return diagnoseInScope(device.internals(), view, casters);
+    checkCasters(casters, internalsOf(device));
+    return diagnoseInScope(internalsOf(device), view, casters);
 }
 
 }  // namespace penumbra

@@ -97,8 +97,8 @@ void HostFramebuffer::Internals::fit(int width_px, int height_px, GLenum newForm
 }
 
 HostFramebuffer::HostFramebuffer(Device& device) {
-    const HostScope scope(device.internals());
-    internals_ = std::make_unique<Internals>(device.internals());
+    const HostScope scope(internalsOf(device));
+    internals_ = std::make_unique<Internals>(internalsOf(device));
 }
 HostFramebuffer::HostFramebuffer(HostFramebuffer&&) noexcept = default;
 HostFramebuffer& HostFramebuffer::operator=(HostFramebuffer&&) noexcept = default;
@@ -142,7 +142,7 @@ void HostFramebuffer::multiply(std::uint32_t framebuffer, const View& view,
     if (!(leastLit >= 0 && leastLit <= 1)) refuse("HostFramebuffer:", "leastLit must lie in [0, 1]");
     if (framebuffer != 0 && !glIsFramebuffer(framebuffer))
         refuse("HostFramebuffer:", "there is no such framebuffer: give the name of one, or 0");
-    const VisibilityBuffer::HostTexture& host = visibility.internals().host;
+    const VisibilityBuffer::HostTexture& host = internalsOf(visibility).host;
     gl::beginPass(framebuffer, {});
     glViewport(view.x_px, view.y_px, view.width_px, view.height_px);
     glEnable(GL_BLEND);

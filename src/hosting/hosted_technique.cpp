@@ -13,8 +13,8 @@
 namespace penumbra {
 
 HostedTechnique::HostedTechnique(Device& device, std::unique_ptr<Technique> (*make)(Device&))
-    : device_(Device::Internals::handle(device.internals())), view_(device_.internals()) {
-    const HostScope scope(device_.internals());
+    : device_(Device::Internals::handle(internalsOf(device))), view_(internalsOf(device_)) {
+    const HostScope scope(internalsOf(device_));
     technique_ = make(device_);
 }
 
@@ -23,41 +23,41 @@ void HostedTechnique::describe(ParameterVisitor& visitor) {
 }
 
 void HostedTechnique::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
-    const HostScope scope(device_.internals());
-    checkInputs(inputs.view, inputs.light, out, device_.internals());
-    checkCasters(inputs.casters, device_.internals());
+    const HostScope scope(internalsOf(device_));
+    checkInputs(inputs.view, inputs.light, out, internalsOf(device_));
+    checkCasters(inputs.casters, internalsOf(device_));
     warnOfPolygonOffset(scope.hostsPolygonOffset(), inputs.view);
-    if (device_.internals().diagnoses) diagnoseOnce(inputs);
+    if (internalsOf(device_).diagnoses) diagnoseOnce(inputs);
     const ReadableTexture depth(inputs.view.depthTexture), normals(inputs.view.normalTexture),
         receivers(inputs.view.receiverTexture);
     VisibilityBuffer& written = plain(out);
     technique_->render({view_.prepare(inputs.view), inputs.light, inputs.casters}, written);
     deliver(written, out);
     // Whatever the host does with it next.
-    device_.internals().shaders.order()->makeAllVisible();
+    internalsOf(device_).shaders.order()->makeAllVisible();
 }
 
 void HostedTechnique::diagnoseOnce(const ShadowInputs& inputs) {
     if (std::exchange(isDiagnosed_, true)) return;
     for (const std::string& finding :
-         diagnoseInScope(device_.internals(), inputs.view, inputs.casters).findings)
-        device_.internals().log.write(LogLevel::warning, "diagnosis: " + finding);
+         diagnoseInScope(internalsOf(device_), inputs.view, inputs.casters).findings)
+        internalsOf(device_).log.write(LogLevel::warning, "diagnosis: " + finding);
 }
 
 void HostedTechnique::warnOfPolygonOffset(const PolygonOffset& ofHost, const View& view) {
     const PolygonOffset none;
     if (ofHost == none || view.polygonOffset != none) return;
-    if (std::exchange(device_.internals().hasWarnedOfPolygonOffset, true)) return;
-    device_.internals().log.write(
+    if (std::exchange(internalsOf(device_).hasWarnedOfPolygonOffset, true)) return;
+    internalsOf(device_).log.write(
         LogLevel::warning,
         "GL_POLYGON_OFFSET_FILL is on: if the depths were drawn with it, state it in "
         "View::polygonOffset, or surfaces lie behind themselves and are dark");
 }
 
 VisibilityBuffer& HostedTechnique::plain(VisibilityBuffer& out) {
-    if (out.internals().isPlain()) return out;
+    if (internalsOf(out).isPlain()) return out;
     if (!detour_ || detour_->colored() != out.colored()) {
-        detour_ = VisibilityBuffer::Internals::make(device_.internals(), out.width_px(), out.height_px(),
+        detour_ = VisibilityBuffer::Internals::make(internalsOf(device_), out.width_px(), out.height_px(),
                                                     out.colored());
     }
     detour_->resize(out.width_px(), out.height_px());
@@ -66,24 +66,24 @@ VisibilityBuffer& HostedTechnique::plain(VisibilityBuffer& out) {
 
 void HostedTechnique::deliver(const VisibilityBuffer& written, const VisibilityBuffer& out) {
     if (&written == &out) return;
-    if (!copy_) copy_.emplace(device_.internals());
-    const VisibilityBuffer::HostTexture& host = out.internals().host;
+    if (!copy_) copy_.emplace(internalsOf(device_));
+    const VisibilityBuffer::HostTexture& host = internalsOf(out).host;
     copy_->run({.texture = imageOf(written)},
                {{.name = host.texture,
-                 .format = gl::Format(out.internals().format),
+                 .format = gl::Format(internalsOf(out).format),
                  .isLayered = false,
-                 .record = &out.internals().written},
+                 .record = &internalsOf(out).written},
                 {host.x_px, host.y_px}},
                {host.width_px, host.height_px});
 }
 
 void HostedTechnique::inspect(InspectionVisitor& visitor) const {
-    const HostScope scope(device_.internals());
+    const HostScope scope(internalsOf(device_));
     technique_->inspect(visitor);
 }
 
 Statistics HostedTechnique::statistics() const {
-    const HostScope scope(device_.internals());
+    const HostScope scope(internalsOf(device_));
     return technique_->statistics();
 }
 

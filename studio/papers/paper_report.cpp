@@ -169,7 +169,7 @@ std::string leftOutHtml(const std::vector<LeftOut>& leftOut) {
 
 }  // namespace
 
-std::string toHtml(const PaperResult& result, const Machine& machine, const PressOptions& options,
+std::string toHtml(const PaperResult& result, const Machine& machine, const ReproductionOptions& options,
                    const std::string& command) {
     std::string body = fmt::format(
         "<p>{}</p>\n<p>The paper's hardware: {}. Ours: {}; {} ({}); costs are {} of the shadows alone, "

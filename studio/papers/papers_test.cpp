@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recipes name only what there is, and the press says what there is not.
+// Recipes name only what there is, and the reproduction says what there is not.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -81,9 +81,9 @@ Paper paperOf(std::vector<Figure> figures, std::vector<Table> tables = {}) {
             .tables = std::move(tables)};
 }
 
-const PressOptions tiny{.size = {48, 27}, .samples = 4, .rounds = 1};
+const ReproductionOptions tiny{.size = {48, 27}, .samples = 4, .rounds = 1};
 
-TEST(Press, SaysNotYetForWhatIsMissing) {
+TEST(Reproduction, SaysNotYetForWhatIsMissing) {
     const Situation boxes{.scene = "two-boxes"};
     const Paper paper = paperOf(
         {{.id = "Figure 1",
@@ -122,7 +122,7 @@ TEST(Press, SaysNotYetForWhatIsMissing) {
     EXPECT_EQ(page.find("src=\"http"), std::string::npos);
 }
 
-TEST(Press, JudgesClaimsByTheNumbers) {
+TEST(Reproduction, JudgesClaimsByTheNumbers) {
     const Situation plane{.scene = "half-plane"};
     const Paper paper =
         paperOf({{.id = "Figure 1",
@@ -138,7 +138,7 @@ TEST(Press, JudgesClaimsByTheNumbers) {
     EXPECT_NE(judgements(result).find("Does not hold here: hard"), std::string::npos) << judgements(result);
 }
 
-TEST(Press, AClaimHoldsNearThePapersRatioNotWheneverLess) {
+TEST(Reproduction, AClaimHoldsNearThePapersRatioNotWheneverLess) {
     const ClaimResult near{.text = "t", .ours = 0.5, .paper = 0.4};
     EXPECT_TRUE(near.holds());
     // Faster than the paper says is another number than the paper's.
@@ -152,7 +152,7 @@ TEST(Press, AClaimHoldsNearThePapersRatioNotWheneverLess) {
     EXPECT_FALSE((ClaimResult{.text = "t", .ours = {}, .paper = {}}).holds());
 }
 
-TEST(Press, ShowsOfTheLightsBuffersWhatIsInThem) {
+TEST(Reproduction, ShowsOfTheLightsBuffersWhatIsInThem) {
     const Paper paper = paperOf({{.id = "Figure 1",
                                   .title = "a sphere, small in its map",
                                   .panels = {{.caption = "depth map",
@@ -170,7 +170,7 @@ TEST(Press, ShowsOfTheLightsBuffersWhatIsInThem) {
     EXPECT_NEAR(double(shown) / double(picture.pixelCount()), 0.785 / (1.15 * 1.15) * 9 / 16, 0.03);
 }
 
-TEST(Press, SaysWhatStandsInForAModel) {
+TEST(Reproduction, SaysWhatStandsInForAModel) {
     const Situation model{.scene = "two-boxes", .model = "models/nowhere.glb"};
     const Paper paper = paperOf({{.id = "Figure 1",
                                   .title = "t",

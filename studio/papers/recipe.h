@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a paper shows, as data: situations, what is drawn of them, the paper's own numbers, and what the
-// numbers ought to say. One file a paper fills these in; press.h turns them into measurements.
+// numbers ought to say. One file a paper fills these in; reproduction.h turns them into measurements.
 #pragma once
 
 #include <functional>

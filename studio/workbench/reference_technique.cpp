@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 2> weightNames = {"area", "irradiance"};
 
 std::span<const StudioTechnique> studioTechniques() {
     static constexpr StudioTechnique techniques[] = {
-        {{"reference", "ray tracing (Embree): the truth, up to its stated noise", 0.01f},
+        {{"reference", "ray tracing (Embree): the truth, up to its stated noise"},
          []() -> std::unique_ptr<Technique> { return std::make_unique<ReferenceTechnique>(); }}};
     return techniques;
 }

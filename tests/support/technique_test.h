@@ -49,6 +49,18 @@ class TechniqueTest : public ::testing::Test {
     static double shareOfDifferentPixels(const LightResult& a, const LightResult& b, float tolerance);
 };
 
+/// For INSTANTIATE_TEST_SUITE_P: the catalog, and how a technique is called in a test's name.
+inline auto everyTechnique() {
+    std::vector<std::string> names;
+    for (const TechniqueInfo& info : techniqueCatalog()) names.emplace_back(info.name);
+    return ::testing::ValuesIn(names);
+}
+inline std::string techniqueTestName(const ::testing::TestParamInfo<std::string>& test) {
+    std::string name = test.param;
+    std::erase(name, '-');
+    return name;
+}
+
 /// The scene with another light in place of all its own; `change` gets its first light to start from.
 Scene withLight(Scene scene, const std::function<void(Light&)>& change);
 

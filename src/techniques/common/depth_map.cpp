@@ -21,7 +21,7 @@ std::vector<std::string> variant(const Device::Internals& device, bool masked) {
 }  // namespace
 
 DepthMap::DepthMap(Device& device)
-    : device_(device.internals()),
+    : device_(internalsOf(device)),
       opaque_(device_.shaders, {vertexShader}, variant(device_, false)),
       masked_(device_.shaders, {vertexShader, fragmentShader}, variant(device_, true)),
       cameras_("light cameras"),
@@ -50,7 +50,7 @@ void DepthMap::render(std::span<const Caster> casters, const LightSpaceScene& sc
     count_ = int(cameras.size());
     allocate(mapSize_px, std::max(1, count_));
 
-    std::pmr::memory_resource* const memory = gl::LedgerScope::frameMemory();
+    std::pmr::memory_resource* const memory = gl::ObjectRegistryScope::frameMemory();
     std::pmr::vector<LightCameraConstants> cameraConstants(memory);
     for (const LightCamera& camera : cameras) cameraConstants.push_back(camera.constants(mapSize_px));
     cameras_.write(cameraConstants);

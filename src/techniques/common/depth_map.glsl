@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Looking things up in depth maps (depth_map.h).
-#include "src/techniques/common/light_camera_io.h"
+#include "src/techniques/common/map_depth.glsl"
 
 uniform sampler2DArray depthMaps;
 layout(std430) readonly buffer LightCameras { LightCameraConstants lightCameras[]; };
@@ -16,10 +16,10 @@ struct MapPoint {
 MapPoint mapPointOfFace(LightCameraConstants c, vec3 posFace) {
     MapPoint point;
     point.posFace = posFace;
-    bool orthographic = c.depth.z == 1.0;
+    bool orthographic = c.depth.isOrthographic;
     vec2 place = orthographic ? point.posFace.xy : point.posFace.xy / point.posFace.z;
-    point.uv = (place - c.window.xy) * c.window.zw;
-    point.texel_m = c.depth.w * (orthographic ? 1.0 : point.posFace.z);
+    point.uv = (place - c.window.min) * c.window.perExtent;
+    point.texel_m = c.depth.texelSize * (orthographic ? 1.0 : point.posFace.z);
     return point;
 }
 MapPoint mapPoint(int camera, vec3 posLight) {
@@ -29,17 +29,12 @@ MapPoint mapPoint(int camera, vec3 posLight) {
 
 // Whether the point lies in front of the camera and in its window.
 bool isInWindow(LightCameraConstants c, MapPoint point) {
-    return (c.depth.z == 1.0 || point.posFace.z > 0.0) && all(greaterThanEqual(point.uv, vec2(0.0))) &&
+    return (c.depth.isOrthographic || point.posFace.z > 0.0) && all(greaterThanEqual(point.uv, vec2(0.0))) &&
            all(lessThan(point.uv, vec2(1.0)));
 }
 bool isInWindow(int camera, MapPoint point) { return isInWindow(lightCameras[camera], point); }
 
-// Linear depth along the camera's axis, in metres, from the reversed depth that is stored; no caster is infinitely far.
-float depthFace_m(int camera, float stored) {
-    vec4 depth = lightCameras[camera].depth;
-    if (stored == 0.0) return uintBitsToFloat(0x7f800000u);
-    return depth.z == 1.0 ? depth.y - stored * (depth.y - depth.x) : depth.x / stored;
-}
+float depthFace_m(int camera, float stored) { return storedDepth_m(lightCameras[camera].depth, stored); }
 
 // Where the plane through the point with the normal is seen in the direction of another place in the map, `uv`.
 // Compared with this depth, a plane never shadows itself, however steeply the light falls on it. The answer is bounded by
@@ -47,9 +42,9 @@ float depthFace_m(int camera, float stored) {
 // itself, nothing behind it can shadow it (behind_m = 0).
 float receiverPlaneDepth_m(int camera, MapPoint point, vec3 normalFace, vec2 uv, float before_m, float behind_m) {
     LightCameraConstants c = lightCameras[camera];
-    vec2 place = uv / c.window.zw + c.window.xy;
+    vec2 place = uv / c.window.perExtent + c.window.min;
     float depth_m;
-    if (c.depth.z == 1.0) {
+    if (c.depth.isOrthographic) {
         vec2 slope = -normalFace.xy / normalFace.z;
         depth_m = point.posFace.z + dot(slope, place - point.posFace.xy);
     } else {

@@ -248,7 +248,7 @@ LightCameras splitByPixelSize(const LightCamera& whole, const LightSpaceScene& s
         const double to_m = part == parts ? 2 * largest : smallest * std::pow(ratio, part);
         const std::array<Plane, 2> planes = {scene.pixelSize_m - Plane(0, 0, 0, from_m),
                                              Plane(0, 0, 0, to_m) - scene.pixelSize_m};
-        Polygons inPart(gl::LedgerScope::frameMemory());
+        Polygons inPart(gl::ObjectRegistryScope::frameMemory());
         clip(scene.receivers.polygons, planes, inPart);
         if (auto fitted = fitWindow(whole, inPart, options))
             cameras.push_back(steadied(*fitted, options.mapSize_px));
@@ -345,8 +345,9 @@ LightCameraConstants LightCamera::constants(int mapSize_px) const {
     return {
         .clipFromLight = clipFromLight(),
         .faceFromLight = faceFromLight,
-        .window = glm::dvec4(windowMin, 1.0 / extent),
-        .depth = {near_m, far_m, orthographic, std::max(extent.x, extent.y) / mapSize_px},
+        .window = {windowMin, 1.0 / extent},
+        .depth = {float(near_m), float(far_m), orthographic,
+                  float(std::max(extent.x, extent.y) / mapSize_px)},
     };
 }
 
@@ -377,7 +378,7 @@ LightCameras fitLightCameras(const AreaLight& light, const LightSpaceScene& scen
         return cameras;
     }
 
-    std::pmr::vector<glm::dvec3> directions(gl::LedgerScope::frameMemory());
+    std::pmr::vector<glm::dvec3> directions(gl::ObjectRegistryScope::frameMemory());
     double farthest = 0;
     for (const Polygon& polygon : receivers) {
         for (const glm::dvec3& p : polygon) {
@@ -407,7 +408,7 @@ LightCameras fitLightCameras(const AreaLight& light, const LightSpaceScene& scen
                                        glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0)}) {
         const glm::dvec3 up = faceAxis.y == 0 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
         LightCamera camera{.faceFromLight = lookAlong(faceAxis, up, options.originLight)};
-        Polygons inFace(gl::LedgerScope::frameMemory());
+        Polygons inFace(gl::ObjectRegistryScope::frameMemory());
         clip(receivers, pyramidOf(camera.faceFromLight), inFace);
         if (auto fitted = fitWindow(camera, inFace, options)) cameras.push_back(*fitted);
     }

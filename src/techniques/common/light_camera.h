@@ -24,7 +24,7 @@ struct ReceiverRegion {
     using Polygon = InlineVector<glm::dvec3, 24>;
     using Polygons = std::pmr::vector<Polygon>;
     /// The surfaces of convex pieces, each the intersection of a receiver's box with the view frustum.
-    Polygons polygons{gl::LedgerScope::frameMemory()};
+    Polygons polygons{gl::ObjectRegistryScope::frameMemory()};
 };
 
 /// Corners of a caster's bounding box in light space; none for an empty mesh.
@@ -33,8 +33,8 @@ using BoxCorners = std::array<glm::dvec3, 8>;
 /// The boxes of casters in light space, and the receivers among what the view sees.
 struct LightSpaceScene {
     /// One a caster, in their order; empty meshes have NaN corners.
-    std::pmr::vector<BoxCorners> boxes{gl::LedgerScope::frameMemory()};
-    std::pmr::vector<glm::dmat4> lightFromMesh{gl::LedgerScope::frameMemory()};  ///< one a caster
+    std::pmr::vector<BoxCorners> boxes{gl::ObjectRegistryScope::frameMemory()};
+    std::pmr::vector<glm::dmat4> lightFromMesh{gl::ObjectRegistryScope::frameMemory()};  ///< one a caster
     ReceiverRegion receivers;
     LightConstants light{};
     /// Of a place (x, y, z, 1), its dot product is the size of a pixel there, in metres.

@@ -54,7 +54,7 @@ void ViewBinding::bindTo(gl::Pass& pass) const {
 }
 
 gl::TextureRef imageOf(const VisibilityBuffer& out) {
-    VisibilityBuffer::Internals& internals = out.internals();
+    VisibilityBuffer::Internals& internals = internalsOf(out);
     return {.name = out.texture(),
             .format = out.colored() ? gl::Format::rgba16f : gl::Format::r32f,
             .isLayered = false,

@@ -9,7 +9,7 @@
 #include "src/device/glm_types.h"
 #include "src/techniques/exact_visibility/exact_io.h"
 
-namespace penumbra {
+namespace penumbra::exact_visibility {
 namespace {
 
 template <typename T>
@@ -213,4 +213,4 @@ void CasterSoup::bindTo(gl::Pass& pass) const {
     if (pass.has("maskedTriangles")) pass.bind("maskedTriangles", masked_.ref());
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::exact_visibility

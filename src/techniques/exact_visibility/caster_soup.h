@@ -12,7 +12,7 @@
 #include "src/gl/texel_buffer.h"
 #include "src/techniques/exact_visibility/triangle_tree.h"
 
-namespace penumbra {
+namespace penumbra::exact_visibility {
 
 /// Keeps, from frame to frame, what has not changed: the shape of each mesh's tree while its triangles are
 /// the same, boxes and corners while it does not move. Where casters moved or were deformed, only theirs are
@@ -73,4 +73,4 @@ class CasterSoup {
     std::size_t maskedCount_ = 0;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::exact_visibility

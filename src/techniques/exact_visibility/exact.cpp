@@ -13,7 +13,7 @@
 #include "src/gl/pass.h"
 #include "src/techniques/common/light_constants.h"
 
-namespace penumbra {
+namespace penumbra::exact_visibility {
 namespace {
 
 constexpr const char* candidatesShader = "src/techniques/exact_visibility/candidates.comp.glsl";
@@ -37,8 +37,8 @@ void bindMaskGroup(gl::Pass& pass, std::span<const unsigned> textures, int group
 }  // namespace
 
 ExactVisibility::ExactVisibility(Device& device)
-    : roundWork_(device.internals().isSoftware ? softwareRoundWork : hardwareRoundWork),
-      device_(device.internals()),
+    : roundWork_(internalsOf(device).isSoftware ? softwareRoundWork : hardwareRoundWork),
+      device_(internalsOf(device)),
       candidates_(device_.shaders, {candidatesShader}),
       weigh_(device_.shaders, {"src/techniques/exact_visibility/weights.comp.glsl"}),
       light_("exact/light"),
@@ -300,4 +300,4 @@ Statistics ExactVisibility::statistics() const {
     return statistics;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::exact_visibility

@@ -22,7 +22,7 @@
 #include "src/techniques/exact_visibility/exact_io.h"
 #include "src/techniques/exact_visibility/light_lattice.h"
 
-namespace penumbra {
+namespace penumbra::exact_visibility {
 
 class ExactVisibility final : public Technique {
   public:
@@ -81,4 +81,4 @@ class ExactVisibility final : public Technique {
     gl::PassTimers timers_;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::exact_visibility

@@ -6,7 +6,7 @@
 #include "src/techniques/common/light_io.h"
 
 #ifdef __cplusplus
-namespace penumbra {
+namespace penumbra::exact_visibility {
 #endif
 
 // Nodes of the tree: what stands in the fourth words.
@@ -78,6 +78,6 @@ SHARED_STRUCT ExactRound {
 static_assert(sizeof(ExactLight) ==
               32 + 16 * (10 + EXACT_MAX_LATTICES + EXACT_MAX_LATTICES * EXACT_MAX_ROWS / 4));
 static_assert(sizeof(TileList) == 16 && sizeof(ExactRound) == 16);
-}  // namespace penumbra
+}  // namespace penumbra::exact_visibility
 #endif
 #endif

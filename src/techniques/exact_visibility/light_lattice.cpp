@@ -9,7 +9,7 @@
 
 #include "src/techniques/exact_visibility/exact_io.h"
 
-namespace penumbra {
+namespace penumbra::exact_visibility {
 namespace {
 
 constexpr int maxPerLattice = 256;
@@ -128,4 +128,4 @@ std::vector<LightLattice> makeLightLattices(int samples, bool disk) {
     return result;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::exact_visibility

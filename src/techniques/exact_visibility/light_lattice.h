@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-namespace penumbra {
+namespace penumbra::exact_visibility {
 
 /// Points of the square [-1, 1]^2, or of the disk in it, which all count the same: those with integer
 /// coordinates (i, j) after uv has been turned, scaled and shifted. Tilted, so that an edge along an axis of
@@ -22,4 +22,4 @@ struct LightLattice {
 /// for each lattice after the first. All have the same matrix. `samples` of 1 is the centre.
 std::vector<LightLattice> makeLightLattices(int samples, bool disk);
 
-}  // namespace penumbra
+}  // namespace penumbra::exact_visibility

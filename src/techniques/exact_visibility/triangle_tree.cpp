@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-namespace penumbra {
+namespace penumbra::exact_visibility {
 namespace {
 
 float halfArea(const TreeBox& box) {
@@ -139,4 +139,4 @@ std::vector<TreeBox> refitTree(const TreeShape& shape, std::span<const TreeBox> 
     return result;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::exact_visibility

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace penumbra {
+namespace penumbra::exact_visibility {
 
 struct TreeBox {
     glm::vec3 min{1e38f}, max{-1e38f};
@@ -43,4 +43,4 @@ TreeShape buildTree(std::span<const TreeBox> boxes, std::uint32_t largestLeaf);
 /// The boxes of all nodes, from those of the leaves.
 std::vector<TreeBox> refitTree(const TreeShape& shape, std::span<const TreeBox> boxes);
 
-}  // namespace penumbra
+}  // namespace penumbra::exact_visibility

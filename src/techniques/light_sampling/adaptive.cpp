@@ -8,7 +8,7 @@
 
 #include "src/techniques/light_sampling/input_key.h"
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 namespace {
 
 constexpr std::array<const char*, mostRounds> mapPasses = {
@@ -318,4 +318,4 @@ Statistics AdaptiveLightSampling::statistics() const {
     return statistics;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

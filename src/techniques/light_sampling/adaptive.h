@@ -14,7 +14,7 @@
 #include "src/techniques/light_sampling/receiver_tiles.h"
 #include "src/techniques/light_sampling/subdivision.h"
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 
 class AdaptiveLightSampling final : public Technique {
   public:
@@ -73,4 +73,4 @@ class AdaptiveLightSampling final : public Technique {
     bool wasStatic_ = false;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

@@ -6,7 +6,7 @@
 
 #include "src/techniques/light_sampling/subdivision.h"
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 
 void EvaluationOptions::describe(ParameterVisitor& visitor) {
     static constexpr std::array<std::string_view, 2> paths = {"array", "accumulation"};
@@ -23,14 +23,14 @@ void EvaluationOptions::describe(ParameterVisitor& visitor) {
 }
 
 SampleLookup::SampleLookup(Device& device, std::string file)
-    : device_(device.internals()), file_(std::move(file)), constants_("light sampling lookups") {}
+    : device_(internalsOf(device)), file_(std::move(file)), constants_("light sampling lookups") {}
 
 std::vector<std::string> SampleLookup::Variant::defines() const {
     std::vector<std::string> defines = {"FILTER " + std::to_string(filter)};
-    if (wishes.colored) defines.push_back("COLORED");
-    if (wishes.bits) defines.push_back("BITS");
-    if (wishes.smooth) defines.push_back("SMOOTH");
-    if (wishes.partial) defines.push_back("PARTIAL");
+    if (features.colored) defines.push_back("COLORED");
+    if (features.bits) defines.push_back("BITS");
+    if (features.smooth) defines.push_back("SMOOTH");
+    if (features.partial) defines.push_back("PARTIAL");
     if (distant) defines.push_back("DISTANT");
     if (sphere) defines.push_back("SPHERE");
     if (cube) defines.push_back("CUBE");
@@ -38,8 +38,8 @@ std::vector<std::string> SampleLookup::Variant::defines() const {
 }
 
 const gl::Program& SampleLookup::prepare(const AreaLight& light, const SampleCameras& cameras,
-                                         const EvaluationOptions& options, const Wishes& wishes) {
-    const Variant variant{wishes, options.filter, light.shape == LightShape::distant,
+                                         const EvaluationOptions& options, const Features& features) {
+    const Variant variant{features, options.filter, light.shape == LightShape::distant,
                           light.shape == LightShape::sphere && light.radius_m > 0, cameras.isCube};
     auto found = programs_.find(variant);
     if (found == programs_.end()) {
@@ -93,7 +93,7 @@ void SampleEvaluation::add(const ShadowInputs& inputs, const ViewBinding& view, 
 }
 
 RadianceWeights::RadianceWeights(Device& device)
-    : program_(device.internals().shaders, {"src/techniques/light_sampling/weigh.comp.glsl"}),
+    : program_(internalsOf(device).shaders, {"src/techniques/light_sampling/weigh.comp.glsl"}),
       cells_("light sampling cells") {}
 
 void RadianceWeights::weigh(GLuint radianceTexture, std::span<const glm::vec4> cells,
@@ -111,4 +111,4 @@ int mapSizeFor(const LightSurface& surface, int mapSize_px) {
     return surface.isPoint() ? std::min(4 * mapSize_px, 16384) : mapSize_px;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

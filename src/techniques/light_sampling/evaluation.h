@@ -11,7 +11,7 @@
 #include "src/techniques/common/view_constants.h"
 #include "src/techniques/light_sampling/sample_maps.h"
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 
 /// What the parameters say about it.
 struct EvaluationOptions {
@@ -30,22 +30,22 @@ class SampleLookup {
     SampleLookup(Device& device, std::string file);
 
     /// What a caller wants of a program.
-    struct Wishes {
+    struct Features {
         bool colored = false;  ///< sums a channel each
         bool bits = false;     ///< reads what was compared from shadow bits
         bool smooth = false;   ///< filters between samples that disagree
         bool partial = false;  ///< adds to a sum that takes several passes
-        auto operator<=>(const Wishes&) const = default;
+        auto operator<=>(const Features&) const = default;
     };
 
     /// The variant for this light; passes of it bind this object, for what sample_test.glsl needs.
     const gl::Program& prepare(const AreaLight& light, const SampleCameras& cameras,
-                               const EvaluationOptions& options, const Wishes& wishes);
+                               const EvaluationOptions& options, const Features& features);
     void bindTo(gl::Pass& pass) const { pass.bind("LookupBlock", constants_); }
 
   private:
     struct Variant {
-        Wishes wishes;
+        Features features;
         int filter = 1;
         bool distant = false, sphere = false, cube = false;
         auto operator<=>(const Variant&) const = default;
@@ -100,4 +100,4 @@ class RadianceWeights {
 /// A single map has the memory of many: a light without size gets one of four times the side, as `hard` has.
 int mapSizeFor(const LightSurface& surface, int mapSize_px);
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/techniques/light_sampling/input_key.h"
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 
 bool appendInputs(std::vector<std::byte>& key, const ShadowInputs& inputs) {
     const View& view = inputs.view;
@@ -35,4 +35,4 @@ bool appendInputs(std::vector<std::byte>& key, const ShadowInputs& inputs) {
     return isKnown;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

@@ -7,7 +7,7 @@
 
 #include "penumbra/technique.h"
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 
 template <typename T>
 void appendBytes(std::vector<std::byte>& key, const T& value) {
@@ -19,4 +19,4 @@ void appendBytes(std::vector<std::byte>& key, const T& value) {
 /// where they may change unseen: a mask's texture without a revision.
 bool appendInputs(std::vector<std::byte>& key, const ShadowInputs& inputs);
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

@@ -62,7 +62,7 @@ TEST_F(LightSamplingTest, ALightBehindOrInsideGeometryLeavesItsShadow) {
 }
 
 TEST_F(LightSamplingTest, MapsLargerThanTheDeviceAllowsAreRefused) {
-    int& limit_px = workbench().device().internals().maxTextureSize_px;
+    int& limit_px = internalsOf(workbench().device()).maxTextureSize_px;
     const int before = limit_px;
     limit_px = 512;
     for (const char* name : {"uniform", "adaptive"}) {

@@ -91,7 +91,7 @@ TEST_F(LightSamplingTest, BatchesAndPathsOfEvaluationAgree) {
 
 TEST_F(LightSamplingTest, LayersChosenByTheVertexShaderOrOneByOneAreTheSame) {
     const Scene scene = makeBuiltin("two-boxes");
-    bool& layerFromVertexShader = workbench().device().internals().layerFromVertexShader;
+    bool& layerFromVertexShader = internalsOf(workbench().device()).layerFromVertexShader;
     const bool before = layerFromVertexShader;
     const auto renderAll = [&] {
         return std::pair(render("uniform", scene, size, with({{"samples", "3"}})),

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 namespace {
 
 using std::numbers::pi;
@@ -50,7 +50,7 @@ LightSurface::LightSurface(const AreaLight& light, const LightSpaceScene& scene)
             isPoint_ = light.radius_m == 0;
     }
     if (light.shape != LightShape::sphere) return;
-    std::pmr::vector<glm::dvec3> directions{gl::LedgerScope::frameMemory()};
+    std::pmr::vector<glm::dvec3> directions{gl::ObjectRegistryScope::frameMemory()};
     for (const ReceiverRegion::Polygon& polygon : scene.receivers.polygons) {
         for (const glm::dvec3& p : polygon) {
             // Whoever lies within the sphere sees all of its inside.
@@ -149,7 +149,7 @@ InlineVector<glm::dvec3, 8> LightSurface::bounds() const {
 }
 
 std::pmr::vector<PatternPoint> makePattern(SamplePattern pattern, int perSide, int seed, bool equalWeights) {
-    std::pmr::vector<PatternPoint> points{gl::LedgerScope::frameMemory()};
+    std::pmr::vector<PatternPoint> points{gl::ObjectRegistryScope::frameMemory()};
     const int count = perSide * perSide;
     if (perSide == 1) {
         points.emplace_back();
@@ -193,4 +193,4 @@ std::pmr::vector<PatternPoint> makePattern(SamplePattern pattern, int perSide, i
     return points;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

@@ -11,7 +11,7 @@
 #include "src/techniques/common/light_camera.h"
 #include "src/techniques/light_sampling/sampling_io.h"
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 
 /// Rect: as it is. Disk: the concentric map of Shirley and Chiu 1997. Distant: the same, lifted to the cap of
 /// directions so that areas are solid angles. Sphere: see `spherePoint`.
@@ -55,4 +55,4 @@ struct PatternPoint {
 
 std::pmr::vector<PatternPoint> makePattern(SamplePattern pattern, int perSide, int seed, bool equalWeights);
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

@@ -57,7 +57,7 @@ float reachInMap(LightSample light, SampleCamera camera, bool isOrthographic, fl
             vec3 step = mat3(needs.face0FromLight) * along;
             float depth = needs.nearestBlocker_m - abs(step.z);
             if (!(depth > 0.0)) return beyond;
-            vec2 window = max(abs(camera.tap.window.xy), abs(camera.tap.window.xy + 1.0 / camera.tap.window.zw));
+            vec2 window = max(abs(camera.tap.window.min), abs(camera.tap.window.min + 1.0 / camera.tap.window.perExtent));
             float tangent = (length(step.xy) + length(window) * abs(step.z)) / depth;
             most = max(most, tangent * max(1.0 - needs.nearestBlocker_m / farthest_m, 0.0));
         }
@@ -72,7 +72,7 @@ void addTile(ReceiverTile tile, SampleCamera camera, bool isOrthographic) {
         low[i] = fromOrderedBits(tile.low[i]);
         high[i] = fromOrderedBits(tile.high[i]);
     }
-    vec2 windowMin = camera.tap.window.xy, windowMax = windowMin + 1.0 / camera.tap.window.zw;
+    vec2 windowMin = camera.tap.window.min, windowMax = windowMin + 1.0 / camera.tap.window.perExtent;
     vec2 from = windowMin, to = windowMax;
     if (isOrthographic) {
         vec2 a = camera.tap.origin.xy * low.z, b = camera.tap.origin.xy * high.z;
@@ -86,8 +86,8 @@ void addTile(ReceiverTile tile, SampleCamera camera, bool isOrthographic) {
             low = middle - extent;
             high = middle + extent;
         }
-        low -= camera.tap.origin.xyz;
-        high -= camera.tap.origin.xyz;
+        low -= camera.tap.origin;
+        high -= camera.tap.origin;
         // None of it in the pyramid that the map shows.
         float foremost = max(low.z, 0.0);
         if (high.z <= 0.0 || any(lessThan(high.xy, min(windowMin * high.z, windowMin * foremost))) ||
@@ -99,7 +99,7 @@ void addTile(ReceiverTile tile, SampleCamera camera, bool isOrthographic) {
     }
     // Two texels make up for rounding and for kernels of three.
     float slack = 2.0 / float(needs.mapSize_px);
-    vec2 uvMin = (from - windowMin) * camera.tap.window.zw - slack, uvMax = (to - windowMin) * camera.tap.window.zw + slack;
+    vec2 uvMin = (from - windowMin) * camera.tap.window.perExtent - slack, uvMax = (to - windowMin) * camera.tap.window.perExtent + slack;
     ivec2 first = ivec2(floor(clamp(uvMin, 0.0, 1.0) * float(maskSide)));
     ivec2 last = min(ivec2(floor(clamp(uvMax, 0.0, 1.0) * float(maskSide))), maskSide - 1);
     uint depth = orderedBits(high.z);
@@ -115,7 +115,7 @@ void addTile(ReceiverTile tile, SampleCamera camera, bool isOrthographic) {
 
 void placeLayer(int layer, int vertex, SampleCamera camera) {
     int index = int(gl_LocalInvocationIndex);
-    bool isOrthographic = camera.camera.depth.z == 1.0;
+    bool isOrthographic = camera.camera.depth.isOrthographic;
     bool showsAll = needs.tileCount < 0;
     for (int i = index; i < maskSide * maskSide; i += 256) farthest[i] = showsAll ? orderedBits(beyond) : 0u;
     if (index == 0) {
@@ -137,7 +137,7 @@ void placeLayer(int layer, int vertex, SampleCamera camera) {
     ivec2 around = ivec2(0);
     if (rim[2] >= 0 && farthestOfAll != 0u) {
         float most = reachInMap(samples[vertex], camera, isOrthographic, fromOrderedBits(farthestOfAll));
-        around = ivec2(ceil(min(most * camera.tap.window.zw, 1.0) * float(maskSide)));
+        around = ivec2(ceil(min(most * camera.tap.window.perExtent, 1.0) * float(maskSide)));
     }
     for (int i = index; i < maskSide * maskSide; i += 256) {
         int x = i % maskSide;

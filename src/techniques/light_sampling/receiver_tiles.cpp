@@ -8,7 +8,7 @@
 
 #include "src/techniques/light_sampling/subdivision.h"
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 namespace {
 
 /// No part of the light is farther from its centre, or from a distant light's axis as a sine.
@@ -74,4 +74,4 @@ void ReceiverTiles::findUnsettled(const ShadowInputs& inputs, const ViewBinding&
     }
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

@@ -4,7 +4,7 @@
 
 #include "src/techniques/light_sampling/evaluation.h"
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 
 class ReceiverTiles {
   public:
@@ -31,4 +31,4 @@ class ReceiverTiles {
     int tile_px_ = 8, across_ = 0, down_ = 0;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

@@ -6,7 +6,7 @@
 #include <glm/gtc/matrix_access.hpp>
 #include <limits>
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 namespace {
 
 using Polygon = ReceiverRegion::Polygon;
@@ -75,7 +75,7 @@ void SampleCameras::fit(const AreaLight& light, const LightSurface& surface,
 
     const InlineVector<glm::dvec3, 8> bounds = surface.bounds();
     double farthest = 0;
-    std::pmr::vector<glm::dvec3> directions{gl::LedgerScope::frameMemory()};
+    std::pmr::vector<glm::dvec3> directions{gl::ObjectRegistryScope::frameMemory()};
     for (const Polygon& polygon : polygons) {
         for (const glm::dvec3& p : polygon) {
             farthest = std::max(farthest, glm::length(p));
@@ -193,7 +193,7 @@ void SampleCameras::add(const glm::dmat4& camera, const glm::dvec3& origin, glm:
                                                        .near_m = near_m,
                                                        .far_m = far_m}
                                                .constants(mapSize_px);
-    cameras.push_back({constants, {glm::vec4(glm::vec3(origin), constants.depth.w), constants.window}});
+    cameras.push_back({constants, {origin, constants.depth.texelSize, constants.window}});
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

@@ -10,7 +10,7 @@
 #include "src/techniques/common/light_camera.h"
 #include "src/techniques/light_sampling/light_surface.h"
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 
 struct SampleCameras {
     int faces = 0;  ///< maps a sample: 1, or up to 6 where receivers surround the light; 0: nothing receives
@@ -34,4 +34,4 @@ struct SampleCameras {
     std::vector<glm::dvec3> receivers_;  // face space of face 0
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <string>
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 namespace {
 
 constexpr const char* vertexShader = "src/techniques/common/depth_map.vert.glsl";
@@ -29,7 +29,7 @@ void upload(gl::Buffer& buffer, std::span<const T> values, std::string_view labe
 }  // namespace
 
 SampleMaps::SampleMaps(Device& device)
-    : device_(device.internals()),
+    : device_(internalsOf(device)),
       opaque_(device_.shaders, {vertexShader}, variant(device_)),
       masked_(device_.shaders, {vertexShader, fragmentShader}, variant(device_, true)),
       placeLayers_(device_.shaders, {"src/techniques/light_sampling/place_layers.comp.glsl"}),
@@ -226,4 +226,4 @@ void SampleMaps::drawCasters(bool haveHoles, CommandOf command_bytes) const {
     }
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

@@ -15,7 +15,7 @@
 #include "src/techniques/light_sampling/sample_cameras.h"
 #include "src/techniques/light_sampling/sampling_io.h"
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 
 class SampleMaps {
   public:
@@ -96,4 +96,4 @@ class SampleMaps {
     LightConstants light_{};
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

@@ -6,6 +6,7 @@
 #define LEAST_HEIGHT 0.0
 #endif
 #include "src/techniques/common/light_plane.glsl"
+#include "src/techniques/common/map_depth.glsl"
 #include "src/techniques/light_sampling/batch.glsl"
 
 uniform sampler2DArray maps;
@@ -65,19 +66,19 @@ float countOf(LightSample light, Receiver receiver) {
 // divided by the background's 0.
 float texelLit(int layer, LayerTap tap, vec3 pos, vec3 normal, float across, vec2 texel, float size_px) {
     float stored = texelFetch(maps, ivec3(clamp(ivec2(texel), ivec2(0), ivec2(size_px) - 1), layer), 0).r;
-    vec2 place = (texel + 0.5) / (size_px * tap.window.zw) + tap.window.xy;
+    vec2 place = (texel + 0.5) / (size_px * tap.window.perExtent) + tap.window.min;
 #ifdef DISTANT
-    float texel_m = tap.origin.w;
+    float texel_m = tap.texelSize;
     float along = dot(normal.xy, tap.origin.xy) + normal.z;
     float receiver_m = (across - dot(normal.xy, place)) / along;
     if (along == 0.0) receiver_m = pos.z;
 #else
-    float texel_m = tap.origin.w * pos.z;
+    float texel_m = tap.texelSize * pos.z;
     float along = dot(normal, vec3(place, 1.0));
     float receiver_m = across * along > 0.0 ? across / along : pos.z + 64.0 * texel_m;
 #endif
     receiver_m = clamp(receiver_m, pos.z - 64.0 * texel_m, pos.z);
-    receiver_m -= texel_m + 4e-6 * length(pos);
+    receiver_m -= mapTolerance_m(texel_m, pos);
 #ifdef DISTANT
     return receiver_m <= sampling.far_m - stored * (sampling.far_m - sampling.near_m) || stored == 0.0 ? 1.0 : 0.0;
 #else
@@ -96,11 +97,11 @@ float blockerNearness(int layer, Lookup lookup) {
 #ifdef DISTANT
     vec2 place = pos.xy - tap.origin.xy * pos.z;
 #else
-    pos -= tap.origin.xyz;
+    pos -= tap.origin;
     vec2 place = pos.xy / pos.z;
 #endif
     float size_px = float(textureSize(maps, 0).x);
-    vec2 at = (place - tap.window.xy) * tap.window.zw * size_px;
+    vec2 at = (place - tap.window.min) * tap.window.perExtent * size_px;
     float stored = texelFetch(maps, ivec3(clamp(ivec2(at), ivec2(0), ivec2(size_px) - 1), layer), 0).r;
 #ifdef DISTANT
     return pos.z - (sampling.far_m - stored * (sampling.far_m - sampling.near_m));
@@ -117,7 +118,7 @@ float besideSampleLit(int layer, Lookup lookup, vec3 place, vec3 step, float nea
     vec2 slopes = beside.xy / min(beside.z, -1e-6);
     vec2 seenAt = pos.xy - tap.origin.xy * pos.z - (slopes - tap.origin.xy) * nearness;
 #else
-    pos -= tap.origin.xyz;
+    pos -= tap.origin;
     if (!(pos.z > 0.0)) return 1.0;
     float blocked = nearness * pos.z / (1.0 + nearness * pos.z);
     vec3 passes = mix(pos, mat3(sampling.faceFromLight[0]) * step, blocked);
@@ -125,7 +126,7 @@ float besideSampleLit(int layer, Lookup lookup, vec3 place, vec3 step, float nea
     vec2 seenAt = passes.xy / passes.z;
 #endif
     float size_px = float(textureSize(maps, 0).x);
-    vec2 at = (seenAt - tap.window.xy) * tap.window.zw * size_px;
+    vec2 at = (seenAt - tap.window.min) * tap.window.perExtent * size_px;
     if (!(all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(size_px))))) return 1.0;
     return texelLit(layer, tap, pos, lookup.normal, dot(lookup.normal, pos), floor(at), size_px);
 }
@@ -142,7 +143,7 @@ float sampleLit(int layer, Lookup lookup) {
     int face = 0;
     for (; face < batch.faces; ++face) {
         tap = layerTaps[layer + face];
-        posFace = mat3(sampling.faceFromLight[face]) * pos - tap.origin.xyz;
+        posFace = mat3(sampling.faceFromLight[face]) * pos - tap.origin;
         place = posFace.xy / posFace.z;
         if (posFace.z > 0.0 && all(lessThanEqual(abs(place), vec2(1.0)))) break;
     }
@@ -157,13 +158,13 @@ float sampleLit(int layer, Lookup lookup) {
     float across = dot(normal, pos);
 #else
     LayerTap tap = layerTaps[layer];
-    pos -= tap.origin.xyz;
+    pos -= tap.origin;
     vec2 place = pos.xy / pos.z;
     float across = dot(normal, pos);
     if (!(pos.z > 0.0)) return 1.0;
 #endif
     float size_px = float(textureSize(maps, 0).x);
-    vec2 at = (place - tap.window.xy) * tap.window.zw * size_px;
+    vec2 at = (place - tap.window.min) * tap.window.perExtent * size_px;
     if (!(all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(size_px))))) return 1.0;
 #if FILTER == 3
     // Quadratic B-spline over 3 x 3 texels.

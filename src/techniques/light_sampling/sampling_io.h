@@ -7,7 +7,7 @@
 #include "src/techniques/common/light_io.h"
 
 #ifdef __cplusplus
-namespace penumbra {
+namespace penumbra::light_sampling {
 #endif
 
 // A point of the light.
@@ -23,13 +23,13 @@ struct LightSample {
 };
 
 // A layer's map, as a receiver is looked up in it. All samples share the axes of their maps.
-struct LayerTap {
-    vec4 origin;  // perspective: xyz: the sample in face space; orthographic: xy: the light's slopes; w:
-                  // texel size
-    vec4 window;  // xy: min; zw: 1 / (max - min); tangents, or metres
+SHARED_STRUCT LayerTap {
+    vec3 origin;  // perspective: the sample in face space; orthographic: xy: the light's slopes
+    float texelSize;
+    MapWindow window;
 };
 
-struct SampleCamera {
+SHARED_STRUCT SampleCamera {
     LightCameraConstants camera;
     LayerTap tap;
 };
@@ -148,7 +148,7 @@ static_assert(sizeof(LightSample) == 80 && sizeof(LayerTap) == 32 && sizeof(Cull
 static_assert(sizeof(ReceiverTile) == 32 && sizeof(RedrawGroups) == 32 &&
               sizeof(LayerMask) == 16 + 4 * maskSide * maskSide);
 static_assert(sizeof(DrawCommand) == 20 && sizeof(SamplingPlan) == 176 && sizeof(SampleCamera) == 192);
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling
 #else
 // Larger numbers have larger bits.
 uint orderedBits(float value) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 namespace {
 
 std::vector<std::string> file(const char* name) {
@@ -37,11 +37,11 @@ int SubdivisionOptions::mostSlotsInAll() const {
 }
 
 SubdivisionPasses::SubdivisionPasses(Device& device)
-    : decide_(device.internals().shaders, file("decide.comp.glsl")),
-      examine_(device.internals().shaders, file("examine.comp.glsl")),
-      weigh_(device.internals().shaders, file("lattice_weights.comp.glsl")),
-      illustrate_(device.internals().shaders, file("illustrate.comp.glsl")),
-      illustrateQuads_(device.internals().shaders, file("illustrate_quads.comp.glsl")),
+    : decide_(internalsOf(device).shaders, file("decide.comp.glsl")),
+      examine_(internalsOf(device).shaders, file("examine.comp.glsl")),
+      weigh_(internalsOf(device).shaders, file("lattice_weights.comp.glsl")),
+      illustrate_(internalsOf(device).shaders, file("illustrate.comp.glsl")),
+      illustrateQuads_(internalsOf(device).shaders, file("illustrate_quads.comp.glsl")),
       compare_(device, file("compare.comp.glsl").front()),
       tree_(sizeof(Subdivision), "light subdivision"),
       noShares_(sizeof(LightSample), "no light sampling cell shares") {
@@ -179,4 +179,4 @@ void SubdivisionPasses::illustrate() const {
         .dispatchPixels(quadsPictureSize_px, quadsPictureSize_px);
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

@@ -10,7 +10,7 @@
 #include "src/techniques/light_sampling/evaluation.h"
 #include "src/techniques/light_sampling/subdivision_io.h"
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 
 /// When to split.
 struct SubdivisionOptions {
@@ -99,4 +99,4 @@ class SubdivisionPasses {
     mutable std::optional<Snapshot> latest_;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

@@ -9,7 +9,7 @@
 #include "src/gl/shared_types.h"
 
 #ifdef __cplusplus
-namespace penumbra {
+namespace penumbra::light_sampling {
 #endif
 
 const int deepestLevel = 4;
@@ -55,6 +55,6 @@ SHARED_STRUCT LatticeWeightsConstants {
 
 #ifdef __cplusplus
 static_assert(sizeof(Subdivision) == 4 * (latticeVertices + 2 * splittableQuads + deepestLevel + 1 + 29));
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling
 #endif
 #endif

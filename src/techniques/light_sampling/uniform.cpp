@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/techniques/light_sampling/uniform.h"
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 
 UniformLightSampling::UniformLightSampling(Device& device)
     : maps_(device), evaluation_(device), radiance_(device) {}
@@ -80,4 +80,4 @@ Statistics UniformLightSampling::statistics() const {
             .passes = passTimes(timers_)};
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

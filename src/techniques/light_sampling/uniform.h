@@ -8,7 +8,7 @@
 #include "src/gl/pass_timers.h"
 #include "src/techniques/light_sampling/evaluation.h"
 
-namespace penumbra {
+namespace penumbra::light_sampling {
 
 class UniformLightSampling final : public Technique {
   public:
@@ -40,4 +40,4 @@ class UniformLightSampling final : public Technique {
     int batches_ = 0;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::light_sampling

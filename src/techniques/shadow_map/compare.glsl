@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The comparison that `hard` and `pcf` make, free of a bias that a user would have to tune.
-//
-// A texel stores the depth that its centre sees. The receiver is moved to where its own plane is seen through that
-// centre (receiverPlaneDepth_m), so that a flat surface compares equal with itself up to rounding, however steeply it
-// is lit. What remains is a surface that bends within a texel: it rises over the plane by a texel's size times the
-// slopes that meet; the tolerance below covers a right angle lit at 45 degrees. The price is that a blocker less than a
-// texel above its receiver, along the light's axis, casts no shadow there.
+// The comparison that `hard` and `pcf` make, free of a bias that a user would have to tune (map_depth.glsl).
 #include "src/techniques/common/light_plane.glsl"
-
-const float toleranceTexels = 1.0;
-const float tolerancePrecision = 4e-6;  // some 32 ulps: positions come out of a 32-bit depth buffer and three transforms
 
 // The light's centre is above the surface's horizon, and the surface where the light emits to.
 bool isFacingCenter(Receiver receiver, LightConstants light) {
@@ -21,7 +12,7 @@ bool isFacingCenter(Receiver receiver, LightConstants light) {
 bool isDepthLit(int camera, MapPoint point, vec3 normalFace, ivec2 texel, float stored, int size_px) {
     vec2 uv = (vec2(texel) + 0.5) / float(size_px);
     float receiver_m = receiverPlaneDepth_m(camera, point, normalFace, uv, 64.0 * point.texel_m, 0.0);
-    float tolerance_m = toleranceTexels * point.texel_m + tolerancePrecision * length(point.posFace);
+    float tolerance_m = mapTolerance_m(point.texel_m, point.posFace);
     return receiver_m - tolerance_m <= depthFace_m(camera, stored);
 }
 

@@ -3,10 +3,11 @@
 
 #include "src/techniques/shadow_map/shadow_map_io.h"
 
-namespace penumbra {
+namespace penumbra::shadow_map {
 
 HardShadowMap::HardShadowMap(Device& device)
-    : depthMap_(device), resolve_(device.internals().shaders, {"src/techniques/shadow_map/hard.comp.glsl"}) {}
+    : depthMap_(device),
+      resolve_(internalsOf(device).shaders, {"src/techniques/shadow_map/hard.comp.glsl"}) {}
 
 void HardShadowMap::describe(ParameterVisitor& visitor) {
     visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"},
@@ -46,4 +47,4 @@ Statistics HardShadowMap::statistics() const {
     return statistics;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_map

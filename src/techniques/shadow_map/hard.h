@@ -12,7 +12,7 @@
 #include "src/techniques/common/depth_map.h"
 #include "src/techniques/common/view_constants.h"
 
-namespace penumbra {
+namespace penumbra::shadow_map {
 
 class HardShadowMap final : public Technique {
   public:
@@ -34,4 +34,4 @@ class HardShadowMap final : public Technique {
     gl::PassTimers timers_;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_map

@@ -33,10 +33,8 @@ vec3 towardsLight(LightFrame frame, vec2 place, bool isDistant) {
     return place.x * frame.axisX + place.y * frame.axisY - (isDistant ? frame.away : frame.pos);
 }
 
-// Tolerances as in compare.glsl. A filter looks beside the receiver as well, where an error in the normal's direction
+// Tolerances as in map_depth.glsl. A filter looks beside the receiver as well, where an error in the normal's direction
 // becomes one of height.
-const float toleranceTexels = 1.0;
-const float tolerancePrecision = 4e-6;
 const float toleranceNormal = 5e-4;
 
 struct Tap {
@@ -49,11 +47,11 @@ struct Tap {
 bool tapCamera(int camera, LightFrame face, vec2 offset, out Tap tap) {
     tap = Tap(false, 0.0);
     LightCameraConstants c = lightCameras[camera];
-    bool orthographic = c.depth.z == 1.0;
+    bool orthographic = c.depth.isOrthographic;
     vec3 beside = offset.x * face.axisX + offset.y * face.axisY;
     vec3 aim = face.pos + beside;
     if (!orthographic && aim.z <= 0.0) return false;
-    vec2 uv = ((orthographic ? aim.xy : aim.xy / aim.z) - c.window.xy) * c.window.zw;
+    vec2 uv = ((orthographic ? aim.xy : aim.xy / aim.z) - c.window.min) * c.window.perExtent;
     if (any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)))) return false;
     int size_px = textureSize(depthMaps, 0).x;
     ivec2 texel = ivec2(uv * float(size_px));
@@ -63,10 +61,10 @@ bool tapCamera(int camera, LightFrame face, vec2 offset, out Tap tap) {
     // The blocker, on the ray through the texel's centre; its height over the receiver's own plane there, and its
     // distance from the light, both as linear functions of its depth.
     float depth_m = depthFace_m(camera, stored);
-    vec2 center = (vec2(texel) + 0.5) / float(size_px) / c.window.zw + c.window.xy;
+    vec2 center = (vec2(texel) + 0.5) / float(size_px) / c.window.perExtent + c.window.min;
     vec3 ray = orthographic ? vec3(0.0, 0.0, 1.0) : vec3(center, 1.0);
     vec3 foot = orthographic ? vec3(center, 0.0) : vec3(0.0);
-    float texel_m = c.depth.w * (orthographic ? 1.0 : aim.z);
+    float texel_m = c.depth.texelSize * (orthographic ? 1.0 : aim.z);
     float precision_m = tolerancePrecision * length(face.pos);
     float rise = dot(face.normal, ray);
     float height_m = rise * depth_m + dot(face.normal, foot - face.pos);

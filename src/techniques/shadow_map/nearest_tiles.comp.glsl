@@ -25,9 +25,9 @@ vec2 closenessAndAside(int camera, vec2 tile, float stored, int size_px) {
     LightCameraConstants c = lightCameras[camera];
     if (stored == 0.0) return vec2(-3.4e38, 0.0);
     float depth_m = depthFace_m(camera, stored);
-    if (c.depth.z == 1.0) return vec2(-depth_m, 0.0);
-    vec2 low = tile * float(constants.tile_px) / float(size_px) / c.window.zw + c.window.xy;
-    vec2 high = (tile + 1.0) * float(constants.tile_px) / float(size_px) / c.window.zw + c.window.xy;
+    if (c.depth.isOrthographic) return vec2(-depth_m, 0.0);
+    vec2 low = tile * float(constants.tile_px) / float(size_px) / c.window.perExtent + c.window.min;
+    vec2 high = (tile + 1.0) * float(constants.tile_px) / float(size_px) / c.window.perExtent + c.window.min;
     vec2 halfSize = constants.light.halfSize;
     if (constants.light.shape == shapeSphere) {
         // Beside the line to a receiver by no more than the sphere's radius.

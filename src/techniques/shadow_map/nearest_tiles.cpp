@@ -6,7 +6,7 @@
 #include "src/techniques/common/light_constants.h"
 #include "src/techniques/shadow_map/shadow_map_io.h"
 
-namespace penumbra {
+namespace penumbra::shadow_map {
 namespace {
 
 // As in nearest_tiles.glsl.
@@ -17,8 +17,8 @@ constexpr std::size_t tangents = 8;
 }  // namespace
 
 NearestTiles::NearestTiles(Device& device)
-    : tilesProgram_(device.internals().shaders, {"src/techniques/shadow_map/nearest_tiles.comp.glsl"}),
-      levelsProgram_(device.internals().shaders, {"src/techniques/shadow_map/nearest_levels.comp.glsl"}) {}
+    : tilesProgram_(internalsOf(device).shaders, {"src/techniques/shadow_map/nearest_tiles.comp.glsl"}),
+      levelsProgram_(internalsOf(device).shaders, {"src/techniques/shadow_map/nearest_levels.comp.glsl"}) {}
 
 void NearestTiles::build(const DepthMap& depthMap, const AreaLight& light) {
     const std::size_t maps = std::size_t(std::max(1, depthMap.count()));
@@ -35,4 +35,4 @@ void NearestTiles::build(const DepthMap& depthMap, const AreaLight& light) {
     gl::Pass(levelsProgram_).bind("NearestTiles", tiles_).dispatch(1, 1, layers);
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_map

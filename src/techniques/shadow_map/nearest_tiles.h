@@ -6,7 +6,7 @@
 #include "src/gl/program.h"
 #include "src/techniques/common/depth_map.h"
 
-namespace penumbra {
+namespace penumbra::shadow_map {
 
 /// How near to the light the nearest blocker may be in any part of a depth map: see nearest_tiles.glsl.
 class NearestTiles {
@@ -25,4 +25,4 @@ class NearestTiles {
     int tile_px_ = 1;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_map

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace penumbra {
+namespace penumbra::shadow_map {
 namespace {
 
 glm::vec2 goldenDirection(int i) {
@@ -74,4 +74,4 @@ std::vector<glm::vec4> searchPattern(int count) {
     return points;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_map

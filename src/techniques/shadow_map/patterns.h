@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-namespace penumbra {
+namespace penumbra::shadow_map {
 
 /// Points of the unit disk that keep their distance from each other (Mitchell 1991: best candidates).
 std::vector<glm::vec2> poissonDisk(int count);
@@ -21,4 +21,4 @@ std::vector<glm::vec2> diskPattern(int count);
 /// centre: equal numbers of them in rings of equal width. The first is the centre itself.
 std::vector<glm::vec4> searchPattern(int count);
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_map

@@ -7,7 +7,7 @@
 #include "src/techniques/shadow_map/shadow_map_io.h"
 #include "src/techniques/shadow_map/window_margin.h"
 
-namespace penumbra {
+namespace penumbra::shadow_map {
 namespace {
 
 constexpr int poissonCount = 16;
@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 5> kernelNames = {"2x2", "3x3", "5x5", "b
 
 Pcf::Pcf(Device& device)
     : depthMap_(device),
-      resolve_(device.internals().shaders, {"src/techniques/shadow_map/pcf.comp.glsl"}),
+      resolve_(internalsOf(device).shaders, {"src/techniques/shadow_map/pcf.comp.glsl"}),
       poissonDisk_("pcf/poisson disk") {
     poissonDisk_.write(poissonDisk(poissonCount));
 }
@@ -88,4 +88,4 @@ Statistics Pcf::statistics() const {
     return statistics;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_map

@@ -11,7 +11,7 @@
 #include "src/techniques/common/depth_map.h"
 #include "src/techniques/common/view_constants.h"
 
-namespace penumbra {
+namespace penumbra::shadow_map {
 
 class Pcf final : public Technique {
   public:
@@ -39,4 +39,4 @@ class Pcf final : public Technique {
     gl::PassTimers timers_;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_map

@@ -79,7 +79,7 @@ vec2 lightPlace(int i, Dither dither, float oneMinusCosine) {
 // a tangent (nearest_tiles.glsl).
 float closestWithin(int camera, LightFrame face, float k, int tangent) {
     LightCameraConstants c = lightCameras[camera];
-    bool orthographic = c.depth.z == 1.0;
+    bool orthographic = c.depth.isOrthographic;
     vec2 low = vec2(1e30), high = vec2(-1e30);
     int before = 0;
     for (int i = 0; i < 4; ++i) {
@@ -87,7 +87,7 @@ float closestWithin(int camera, LightFrame face, float k, int tangent) {
         vec3 aim = face.pos + corner.x * face.axisX + corner.y * face.axisY;
         if (!orthographic && aim.z <= 0.0) continue;
         ++before;
-        vec2 uv = ((orthographic ? aim.xy : aim.xy / aim.z) - c.window.xy) * c.window.zw;
+        vec2 uv = ((orthographic ? aim.xy : aim.xy / aim.z) - c.window.min) * c.window.perExtent;
         low = min(low, uv);
         high = max(high, uv);
     }
@@ -114,7 +114,7 @@ float closestWithin(int camera, LightFrame face, float k, int tangent) {
 // The largest k that a blocker may have which hides some of the light; 0 if none does. It lies where the light's outline,
 // times its own k, is seen: so the region to look for it in shrinks with what is found there.
 float largestKOfBlockers(int camera, LightFrame face, LightFrame lightFrame) {
-    bool orthographic = lightCameras[camera].depth.z == 1.0;
+    bool orthographic = lightCameras[camera].depth.isOrthographic;
     int tangent = tangentIndex(length(lightFrame.pos.xy) / max(abs(lightFrame.pos.z), 1e-30));
     float k = largestK;
     for (int round = 0; round < mostRounds; ++round) {
@@ -125,7 +125,7 @@ float largestKOfBlockers(int camera, LightFrame face, LightFrame lightFrame) {
         }
         float largest = orthographic ? face.pos.z + closest : face.distance_m * closest - 1.0;
         // A blocker nearer to the receiver than the tolerance is none.
-        if (largest < 0.5 * toleranceTexels * lightCameras[camera].depth.w) return 0.0;
+        if (largest < 0.5 * toleranceTexels * lightCameras[camera].depth.texelSize) return 0.0;
         bool isSettled = largest > 0.75 * k;
         k = min(k, largest);
         if (isSettled) break;

@@ -8,7 +8,7 @@
 #include "src/techniques/shadow_map/patterns.h"
 #include "src/techniques/shadow_map/window_margin.h"
 
-namespace penumbra {
+namespace penumbra::shadow_map {
 namespace {
 
 constexpr std::array<std::string_view, 2> patternNames = {"fixed", "rotated"};
@@ -27,7 +27,7 @@ AreaLight scaled(AreaLight light, float scale) {
 Pcss::Pcss(Device& device)
     : depthMap_(device),
       nearestTiles_(device),
-      resolve_(device.internals().shaders, {"src/techniques/shadow_map/pcss.comp.glsl"}),
+      resolve_(internalsOf(device).shaders, {"src/techniques/shadow_map/pcss.comp.glsl"}),
       searchPattern_("pcss/search pattern"),
       filterPattern_("pcss/filter pattern") {}
 
@@ -125,4 +125,4 @@ Statistics Pcss::statistics() const {
     return statistics;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_map

@@ -16,7 +16,7 @@
 #include "src/techniques/shadow_map/nearest_tiles.h"
 #include "src/techniques/shadow_map/shadow_map_io.h"
 
-namespace penumbra {
+namespace penumbra::shadow_map {
 
 class Pcss final : public Technique {
   public:
@@ -54,4 +54,4 @@ class Pcss final : public Technique {
     gl::PassTimers timers_;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_map

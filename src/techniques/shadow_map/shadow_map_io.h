@@ -6,7 +6,7 @@
 #include "src/techniques/common/light_io.h"
 
 #ifdef __cplusplus
-namespace penumbra {
+namespace penumbra::shadow_map {
 #endif
 
 SHARED_STRUCT HardConstants {
@@ -47,6 +47,6 @@ SHARED_STRUCT NearestTilesConstants {
 };
 
 #ifdef __cplusplus
-}  // namespace penumbra
+}  // namespace penumbra::shadow_map
 #endif
 #endif

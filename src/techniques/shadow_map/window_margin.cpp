@@ -7,7 +7,7 @@
 
 #include "src/techniques/common/light_constants.h"
 
-namespace penumbra {
+namespace penumbra::shadow_map {
 namespace {
 
 void widen(LightCamera& camera, const glm::dvec2& margin) {
@@ -50,4 +50,4 @@ void widenForLight(std::span<LightCamera> cameras, const AreaLight& light, const
     }
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_map

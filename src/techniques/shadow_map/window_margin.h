@@ -6,7 +6,7 @@
 
 #include "src/techniques/common/light_camera.h"
 
-namespace penumbra {
+namespace penumbra::shadow_map {
 
 /// Adds `texels` on each side of each window. Where cameras are a cube's faces, their maps then overlap by as
 /// much, and a kernel near a face's edge finds all its texels in the face it started in.
@@ -16,4 +16,4 @@ void widenByTexels(std::span<LightCamera> cameras, double texels, int mapSize_px
 /// the casters' boxes, but at most half a window on each side.
 void widenForLight(std::span<LightCamera> cameras, const AreaLight& light, const LightSpaceScene& scene);
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_map

@@ -7,7 +7,7 @@
 
 #include "penumbra/device.h"
 
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 namespace {
 
 /// So that the ratio 1, where the published curve has its kink, is an entry.
@@ -87,4 +87,4 @@ float umbraBegins(std::span<const float> table) {
     return attenuationTableEnd * float(entry) / float(table.size() - 1);
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map

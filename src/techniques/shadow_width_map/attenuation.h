@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 
 /// I(sd, sw): the share of the light that arrives at shadow depth `sd` and shadow width `sw`, both >= 0. By
 /// the paper's second property it depends on sw / sd alone, so that units do not matter.
@@ -28,4 +28,4 @@ std::vector<float> tabulateAttenuation(const AttenuationFunction& attenuation);
 /// The first ratio of the table at which no light is left; the table's end, if some always is.
 float umbraBegins(std::span<const float> table);
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map

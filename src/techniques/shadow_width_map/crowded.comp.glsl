@@ -34,10 +34,10 @@ float seenAmong(Receiving r, Footprint footprint, float seen, float deepest) {
         other = nearestTo(r.place_px + dot(middleOf(other) - r.place_px, normal) * normal, n.layer);
         Division otherDivides = divide(r, other, n.layer >= mapCount);
         if (!otherDivides.isEdge) continue;
-        float blocker = nearnessOf(r.depth, storedAtEdge(other));
+        float blocker = storedNearness(r.depth, storedAtEdge(other));
         vec2 otherAway = outward(otherDivides, other);
         vec2 otherExtents = halfExtents(footprint, otherAway) * max(min(blocker, deepest) - r.nearness, 0.0);
-        float distance = -dot(otherDivides.way_px, otherAway) * r.depth.w;
+        float distance = -dot(otherDivides.way_px, otherAway) * r.depth.texelSize;
         bool isFar = abs(distance) >= otherExtents.x + otherExtents.y;
         float otherSeen = isFar ? float(distance > 0.0) : shareBelow(otherExtents, distance);
         float cosine = dot(away, otherAway);
@@ -63,7 +63,7 @@ void main() {
     Receiving r;
     if (!loadReceiver(pixel, receiver) || !startReceiving(receiver, r)) return;
     Footprint footprint = footprintOf(r);
-    float stored = storedHere(r), own = nearnessOf(r.depth, stored);
+    float stored = storedHere(r), own = storedNearness(r.depth, stored);
     bool isBlocked = isAbove(r, ivec2(r.place_px), stored);
     float atMost, seen = seenPastNearest(r, footprint, isBlocked, own, atMost);
     seen = min(seenAmong(r, footprint, seen, isBlocked ? own : 3e38), atMost);

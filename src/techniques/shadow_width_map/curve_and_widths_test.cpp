@@ -10,7 +10,7 @@
 #include "src/techniques/shadow_width_map/attenuation.h"
 #include "src/techniques/shadow_width_map/widths_cpu.h"
 
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 namespace {
 
 // -- The curve
@@ -123,4 +123,4 @@ TEST(Widths, WithoutABlockerNothingIsNear) {
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map

@@ -18,7 +18,7 @@ struct Division {
 Division divide(Receiving r, uvec4 edge, bool isInner) {
     Division division;
     float stored = storedAtEdge(edge);
-    bool stands = isEdge(edge) && nearnessOf(r.depth, stored) > r.nearness && isAbove(r, edgeTexel(edge), stored);
+    bool stands = isEdge(edge) && storedNearness(r.depth, stored) > r.nearness && isAbove(r, edgeTexel(edge), stored);
     division.isBehindToo = stands && isInner && isAbove(r, texelBehind(edge), storedBehindEdge(edge));
     division.isEdge = stands && !division.isBehindToo;
     division.way_px = nearestOnEdge(edge, r.place_px, float(constants.cell_px)) - r.place_px;
@@ -33,7 +33,7 @@ float seenPast(Receiving r, Footprint footprint, uvec4 edge, Division division, 
     bool isBeyond = division.width_px < 1.0 ? behind_px < 0.0 : isBlocked;
     vec2 extents = halfExtents(footprint, division.way_px / max(division.width_px, 1e-3));
     extents *= max(blocker - r.nearness, 0.0);
-    float distance = division.width_px * r.depth.w;
+    float distance = division.width_px * r.depth.texelSize;
     if (distance >= extents.x + extents.y) return isBeyond ? 0.0 : 1.0;
     return shareBelow(extents, isBeyond ? -distance : distance);
 }
@@ -54,13 +54,13 @@ float seenFromCell(Receiving r, Footprint footprint, ivec2 cell, bool isBlocked,
     float deepest = isBlocked ? own : 3e38;
     float seen = isBlocked ? 0.0 : 1.0;
     if (innerDivides.isEdge) {
-        float blocker = nearnessOf(r.depth, storedAtEdge(inner));
+        float blocker = storedNearness(r.depth, storedAtEdge(inner));
         seen = seenPast(r, footprint, inner, innerDivides, min(blocker, deepest), isBlocked);
     } else if (isBlocked && innerDivides.isBehindToo && innerDivides.width_px < outlineDivides.width_px) {
-        deepest = min(deepest, nearnessOf(r.depth, storedBehindEdge(inner)));
+        deepest = min(deepest, storedNearness(r.depth, storedBehindEdge(inner)));
     }
     if (outlineDivides.isEdge) {
-        float blocker = nearnessOf(r.depth, storedAtEdge(outline));
+        float blocker = storedNearness(r.depth, storedAtEdge(outline));
         float past = seenPast(r, footprint, outline, outlineDivides, min(blocker, deepest), isBlocked);
         seen = isBlocked ? max(seen, past) : min(seen, past);
     }
@@ -81,7 +81,7 @@ float seenPastHidden(Receiving r, Footprint footprint, ivec2 cell) {
                                        float(constants.cell_px)) - r.place_px;
         if (length(toOutline) < division.width_px || !isAbove(r, texel, farthest)) return 1.0;
     }
-    return seenPast(r, footprint, hidden, division, nearnessOf(r.depth, storedAtEdge(hidden)), isBeneath);
+    return seenPast(r, footprint, hidden, division, storedNearness(r.depth, storedAtEdge(hidden)), isBeneath);
 }
 
 // What is seen past the nearest edges. Visibility is interpolated between cells; neither widths nor depths mean anything in
@@ -127,9 +127,9 @@ Nearest nearestOf(Receiving r, Footprint footprint) {
         }
     }
     vec2 across = n.division.way_px / max(n.division.width_px, 1e-3);
-    n.above = nearnessOf(r.depth, storedAtEdge(n.edge)) - r.nearness;
+    n.above = storedNearness(r.depth, storedAtEdge(n.edge)) - r.nearness;
     vec2 extents = halfExtents(footprint, across) * max(n.above, 0.0);
-    n.reach_px = (extents.x + extents.y) / r.depth.w;
+    n.reach_px = (extents.x + extents.y) / r.depth.texelSize;
     n.behind_px = r.place_px - across * n.reach_px;
     n.beyond_px = r.place_px + across * (n.division.width_px + n.reach_px);
     return n;

@@ -13,6 +13,6 @@ const float jumpTexels = 4.0;
 
 // That many texels beneath a stored depth, as a difference of stored depths.
 float jumpBelow(int map, float stored) {
-    vec4 depth = lightCameras[map].depth;
-    return jumpTexels * depth.w * (depth.z == 1.0 ? 1.0 / (depth.y - depth.x) : stored);
+    MapDepth depth = lightCameras[map].depth;
+    return jumpTexels * depth.texelSize * (depth.isOrthographic ? 1.0 / (depth.far_m - depth.near_m) : stored);
 }

@@ -5,7 +5,7 @@
 
 #include "src/techniques/shadow_width_map/map_cameras.h"
 
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 namespace {
 
 /// Texels along a block (edge_blocks.glsl), and lines of cells that a group sweeps.
@@ -20,7 +20,7 @@ std::vector<std::string> shader(const char* name) {
 }
 
 std::array<gl::Program, 4> variantsByKinds(Device& device, const char* name) {
-    gl::ShaderLibrary& library = device.internals().shaders;
+    gl::ShaderLibrary& library = internalsOf(device).shaders;
     return {gl::Program(library, shader(name)),
             gl::Program(library, shader(name), {"ONE_MAP", "WITH_NORMALS", "KINDS 1"}),
             gl::Program(library, shader(name), {"ONE_MAP", "WITH_NORMALS", "KINDS 2"}),
@@ -40,12 +40,12 @@ void beginList(gl::Buffer& list, std::size_t most, std::string_view label) {
 
 ExactWidths::ExactWidths(Device& device)
     : farthest_(device),
-      edgeBlocks_(device.internals().shaders, shader("edge_blocks.comp.glsl")),
-      cellEdges_(device.internals().shaders, shader("cell_edges.comp.glsl")),
-      edgeColumns_(device.internals().shaders, shader("edge_columns.comp.glsl")),
-      edgeRows_(device.internals().shaders, shader("edge_rows.comp.glsl")),
-      resolve_(device.internals().shaders, shader("resolve.comp.glsl")),
-      resolveOneMap_(device.internals().shaders, shader("resolve.comp.glsl"), {"ONE_MAP", "WITH_NORMALS"}),
+      edgeBlocks_(internalsOf(device).shaders, shader("edge_blocks.comp.glsl")),
+      cellEdges_(internalsOf(device).shaders, shader("cell_edges.comp.glsl")),
+      edgeColumns_(internalsOf(device).shaders, shader("edge_columns.comp.glsl")),
+      edgeRows_(internalsOf(device).shaders, shader("edge_rows.comp.glsl")),
+      resolve_(internalsOf(device).shaders, shader("resolve.comp.glsl")),
+      resolveOneMap_(internalsOf(device).shaders, shader("resolve.comp.glsl"), {"ONE_MAP", "WITH_NORMALS"}),
       penumbra_(variantsByKinds(device, "penumbra.comp.glsl")),
       crowded_(variantsByKinds(device, "crowded.comp.glsl")) {}
 
@@ -206,4 +206,4 @@ void ExactWidths::inspect(InspectionVisitor& visitor) const {
                      .white = 64});
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map

@@ -14,7 +14,7 @@
 #include "src/techniques/common/depth_map.h"
 #include "src/techniques/shadow_width_map/receiver_binding.h"
 
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 
 class ExactWidths {
   public:
@@ -57,4 +57,4 @@ class ExactWidths {
     int mapCount_ = 0;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 namespace {
 
 constexpr double widestMargin = 1.0 / 6;  // of the window
@@ -98,7 +98,7 @@ bool doAnyOverlap(std::pmr::vector<Seen>& boxes) {
 
 std::pmr::vector<Caster> castersThatHideEdges(const ShadowInputs& inputs, const LightSpaceScene& scene,
                                               std::span<const LightCamera> cameras) {
-    std::pmr::memory_resource* const memory = gl::LedgerScope::frameMemory();
+    std::pmr::memory_resource* const memory = gl::ObjectRegistryScope::frameMemory();
     std::pmr::vector<Caster> casters(inputs.casters.begin(), inputs.casters.end(), memory);
     std::pmr::vector<bool> isBefore(casters.size(), false, memory);  // something that receives
     bool doOverlap = false;
@@ -163,4 +163,4 @@ void appendMapKey(std::pmr::vector<double>& key, const ShadowInputs& inputs, con
     }
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map

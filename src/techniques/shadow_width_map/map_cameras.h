@@ -6,7 +6,7 @@
 
 #include "src/techniques/common/light_camera.h"
 
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 
 /// The cameras of fitLightCameras with square windows, so that a distance in the map is the same in all
 /// directions, and wide enough that blockers whose penumbra may reach a receiver are in the map (as far as a
@@ -28,4 +28,4 @@ double planeBehindCasters_m(const ShadowInputs& inputs, const LightSpaceScene& s
 std::pmr::vector<Caster> castersThatHideEdges(const ShadowInputs& inputs, const LightSpaceScene& scene,
                                               std::span<const LightCamera> cameras);
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map

@@ -39,7 +39,7 @@ void main() {
             float stored = storedHere(r);
             bool isBlocked = isAbove(r, ivec2(r.place_px), stored);
             float atMost;
-            seen = seenPastNearest(r, footprint, isBlocked, nearnessOf(r.depth, stored), atMost);
+            seen = seenPastNearest(r, footprint, isBlocked, storedNearness(r.depth, stored), atMost);
             seen = min(seen, atMost);
             isAmongSeveral = isCrowded(r, footprint);
         }

@@ -8,7 +8,7 @@
 
 #include "src/techniques/shadow_width_map/widths_cpu.h"
 
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 namespace {
 
 constexpr std::array<std::string_view, 2> curveNames = {"linear", "smooth"};
@@ -29,8 +29,9 @@ constexpr float startDifference(int choice) {
 
 PublishedWidths::PublishedWidths(Device& device)
     : table_(tabulateAttenuation(linearAttenuation)),
-      composite_(device.internals().shaders, {"src/techniques/shadow_width_map/composite.comp.glsl"}),
-      resolve_(device.internals().shaders, {"src/techniques/shadow_width_map/resolve_published.comp.glsl"}) {}
+      composite_(internalsOf(device).shaders, {"src/techniques/shadow_width_map/composite.comp.glsl"}),
+      resolve_(internalsOf(device).shaders, {"src/techniques/shadow_width_map/resolve_published.comp.glsl"}) {
+}
 
 void PublishedWidths::describe(ParameterVisitor& visitor) {
     visitor.boolean(
@@ -173,4 +174,4 @@ void PublishedWidths::inspect(InspectionVisitor& visitor) const {
     visitor.texture({.name = "shadow-width map", .texture = widths_.name(), .layers = mapCount_});
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map

@@ -13,7 +13,7 @@
 #include "src/techniques/shadow_width_map/attenuation.h"
 #include "src/techniques/shadow_width_map/receiver_binding.h"
 
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 
 class PublishedWidths {
   public:
@@ -65,4 +65,4 @@ class PublishedWidths {
     double plane_m_ = 0;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map

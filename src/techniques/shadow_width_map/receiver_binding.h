@@ -5,7 +5,7 @@
 #include "src/techniques/common/view_constants.h"
 #include "src/techniques/shadow_width_map/shadow_width_io.h"
 
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 
 /// What all passes get that resolve visibility: see receiver.glsl.
 struct ReceiverBinding {
@@ -20,4 +20,4 @@ struct ReceiverBinding {
     }
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map

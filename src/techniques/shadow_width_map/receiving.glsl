@@ -3,12 +3,7 @@
 #include "src/techniques/shadow_width_map/receiver.glsl"
 #include "src/techniques/shadow_width_map/spread.glsl"
 
-// As in hard shadow maps: what a flat receiver needs at most for rounding, and a right angle lit at 45 degrees for
-// bending within a texel.
-const float toleranceTexels = 1.0;
-const float tolerancePrecision = 4e-6;
-
-// What stands above the receiver's plane: all whose nearness (spread.glsl), times `weight`, plus an affine function of the
+// What stands above the receiver's plane: all whose nearness (storedNearness), times `weight`, plus an affine function of the
 // place in the map, is more than `tolerance`. On any plane, nearness is affine in the map.
 struct AbovePlane {
     float weight, tolerance;
@@ -20,7 +15,7 @@ struct Receiving {
     int camera, size_px;
     vec2 place_px;
     vec3 posFace;
-    vec4 depth;      // the camera's
+    MapDepth depth;  // the camera's
     float nearness;
     AbovePlane above;
 };
@@ -29,8 +24,8 @@ struct Receiving {
 // near the plane's horizon (receiverPlaneDepth_m). Else, what stands on the plane's lit side.
 AbovePlane abovePlane(Receiving r, float texel_m, vec3 normalFace, bool isFacing, bool isOrthographic) {
     float height_m = dot(normalFace, r.posFace);
-    float tolerance_m = toleranceTexels * texel_m + tolerancePrecision * length(r.posFace);
-    vec2 slope = normalFace.xy * r.depth.w;
+    float tolerance_m = mapTolerance_m(texel_m, r.posFace);
+    vec2 slope = normalFace.xy * r.depth.texelSize;
     if (!isFacing) {
         if (isOrthographic) return AbovePlane(-normalFace.z, tolerance_m, -normalFace.z * r.posFace.z, -3e38, 3e38, slope);
         return AbovePlane(-height_m - tolerance_m, 0.0, height_m * r.nearness, -3e38, 3e38, slope);
@@ -47,7 +42,7 @@ AbovePlane abovePlane(Receiving r, float texel_m, vec3 normalFace, bool isFacing
 bool isAbove(Receiving r, ivec2 texel, float stored) {
     float plane = r.above.here + dot(r.above.slope, vec2(texel) + 0.5 - r.place_px);
     plane = clamp(plane, r.above.least, r.above.most);
-    return stored > 0.0 && r.above.weight * nearnessOf(r.depth, stored) + plane > r.above.tolerance;
+    return stored > 0.0 && r.above.weight * storedNearness(r.depth, stored) + plane > r.above.tolerance;
 }
 
 float storedHere(Receiving r) { return texelFetch(depthMaps, ivec3(r.place_px, r.camera), 0).r; }
@@ -62,7 +57,7 @@ bool startReceiving(Receiver receiver, out Receiving r) {
     r.place_px = point.uv * float(r.size_px);
     r.posFace = point.posFace;
     r.depth = camera.depth;
-    bool isOrthographic = camera.depth.z == 1.0;
+    bool isOrthographic = camera.depth.isOrthographic;
     r.nearness = isOrthographic ? -r.posFace.z : 1.0 / r.posFace.z;
     vec3 normalFace = turnedToFace(r.camera, receiver.normalLight);
     r.above = abovePlane(r, point.texel_m, normalFace, isFacing(receiver, false), isOrthographic);

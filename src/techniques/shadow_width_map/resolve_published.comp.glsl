@@ -35,10 +35,10 @@ float seenBy(Receiver receiver) {
     // The receiver's own surface is no blocker: less than a texel and rounding apart.
     vec3 normalFace = turnedToFace(camera, receiver.normalLight);
     float slope = length(normalFace.xy) / max(0.1, abs(normalFace.z));
-    float tolerance_m = point.texel_m * (1.0 + slope) + 4e-6 * length(point.posFace);
+    float tolerance_m = mapTolerance_m(point.texel_m * (1.0 + slope), point.posFace);
     if (sd_m <= tolerance_m) return 1.0;
-    vec4 depth = cameraOf(camera).depth;
-    float texel_m = attenuation.plane_m == 0.0 || depth.z == 1.0 ? point.texel_m : depth.w * attenuation.plane_m;
+    MapDepth depth = cameraOf(camera).depth;
+    float texel_m = attenuation.plane_m == 0.0 || depth.isOrthographic ? point.texel_m : depth.texelSize * attenuation.plane_m;
     float sw_m = width * attenuation.unit_px * texel_m;
     float scale = attenuation.cScale;
     // The true umbra begins where the width is a share of the light's half extent: sw = a sd / z_b. Widths end at 1, which

@@ -8,7 +8,7 @@
 #include "src/techniques/common/light_io.h"
 
 #ifdef __cplusplus
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 #endif
 
 // The light and the maps, for all that resolves. Directions are in the receivers' space: the map's where
@@ -58,6 +58,6 @@ SHARED_STRUCT AttenuationConstants {
 
 #ifdef __cplusplus
 static_assert(sizeof(ShadowWidthConstants) == 256);
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map
 #endif
 #endif

@@ -7,7 +7,7 @@
 
 #include "src/techniques/shadow_width_map/map_cameras.h"
 
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 namespace {
 
 constexpr std::array<std::string_view, 3> modeNames = {"exact", "compositing", "cpu-sweep"};
@@ -51,7 +51,7 @@ void ShadowWidthMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
 
     std::pmr::vector<double> key{
         {double(mode_), double(mapSize_px_), double(largestHalfExtent(inputs.light))},
-        gl::LedgerScope::frameMemory()};
+        gl::ObjectRegistryScope::frameMemory()};
     exact_.appendKey(key);
     published_.appendKey(key);
     appendMapKey(key, inputs, scene, cameras);
@@ -145,4 +145,4 @@ Statistics ShadowWidthMap::statistics() const {
     return statistics;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map

@@ -13,7 +13,7 @@
 #include "src/techniques/shadow_width_map/published_widths.h"
 #include "src/techniques/shadow_width_map/shadow_width_io.h"
 
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 
 class ShadowWidthMap final : public Technique {
   public:
@@ -49,4 +49,4 @@ class ShadowWidthMap final : public Technique {
     int timesMade_ = 0;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map

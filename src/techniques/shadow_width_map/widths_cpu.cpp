@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 namespace {
 
 struct Offset {
@@ -169,4 +169,4 @@ std::vector<float> exactShadowWidths(std::span<const bool> blocked, int size_px,
     return widths;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map

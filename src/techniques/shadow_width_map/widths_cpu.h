@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace penumbra {
+namespace penumbra::shadow_width_map {
 
 /// Kirsch and Döllner 2003, section 4, "Generating Shadow Widths": sweeps over the left, right, top and
 /// bottom neighbours until nothing changes any more, which for these four takes one sweep each way. `blocked`
@@ -30,4 +30,4 @@ std::vector<SilhouettePiece> silhouettePieces(std::span<const bool> blocked, int
 /// device's separable transform finds in O(1) a cell.
 std::vector<float> exactShadowWidths(std::span<const bool> blocked, int size_px, int cell_px);
 
-}  // namespace penumbra
+}  // namespace penumbra::shadow_width_map

@@ -8,11 +8,6 @@
 uniform usampler2DArray deepestEdges;
 layout(std140) uniform Constants { PictureConstants picture; };
 
-// A surface that bends within a texel rises over its plane by a texel's size times the slopes that meet; one texel
-// covers a right angle lit at 45 degrees.
-const float toleranceTexels = 1.0;
-const float tolerancePrecision = 4e-6;  // some 32 ulps: a 32-bit depth buffer and three transforms
-
 struct Lookup {
     int camera;
     MapPoint point;
@@ -28,7 +23,7 @@ bool findCamera(Receiver receiver, out Lookup l) {
     }
     if (l.camera == picture.mapCount) return false;
     l.normalFace = mat3(lightCameras[l.camera].faceFromLight) * receiver.normalLight;
-    l.tolerance_m = toleranceTexels * l.point.texel_m + tolerancePrecision * length(l.point.posFace);
+    l.tolerance_m = mapTolerance_m(l.point.texel_m, l.point.posFace);
     return true;
 }
 

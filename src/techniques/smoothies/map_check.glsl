@@ -31,7 +31,7 @@ float checkedByMap(Lookup l, Neighbours n, PastEdge past[layersPerCamera], float
     }
     vec2 place = placeOf(l.camera, l.point.uv);
     float radius_texels = lightExtent(l.camera, place, vec2(1.0, 0.0)).half_m * (range.y - receiver) /
-                          smoothies[l.camera].camera.depth.w;
+                          smoothies[l.camera].camera.depth.texelSize;
     if (radius_texels < leastRadius_texels) return seen;
 
     // Edges at two heights: the upper ones' points count only what is up there, and likewise.

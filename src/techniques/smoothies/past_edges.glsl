@@ -28,7 +28,7 @@ PastEdge pastEdge(Lookup l, uint number, int layer) {
     float receiver = nearnessOf(l.camera, l.point.posFace.z);
     vec2 offset = place - closest;
     float distance_ = length(offset);
-    float windowTexel = smoothies[l.camera].camera.depth.w;
+    float windowTexel = smoothies[l.camera].camera.depth.texelSize;
 
     // An edge shades what lies beyond it. What sees the light's centre must also have the edge above its plane, by more
     // than the tolerance: a surface lies under none of its own edges. What does not see it lies behind something anyway.

@@ -22,7 +22,7 @@ layout(location = 0) out uint deepestEdge;
 void main() {
     bool inner = isInner == 1;
     float towards = inner ? -1.0 : 1.0;
-    float texel = smoothies[camera].camera.depth.w;
+    float texel = smoothies[camera].camera.depth.texelSize;
     vec2 offset = towards * (place - closest);
     float distance_ = length(offset);
     vec2 normal = distance_ > 1e-3 * texel ? offset / distance_ : outward;

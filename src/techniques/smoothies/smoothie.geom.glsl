@@ -38,7 +38,7 @@ struct End {
 };
 
 void emit(End end, vec2 offset, vec2 normal, int layer) {
-    vec4 window = smoothies[camera].camera.window;
+    MapWindow window = smoothies[camera].camera.window;
     edgeNumber = number[0];
     outward = normal;
     isInner = layer == layerOuter ? 0 : 1;
@@ -50,7 +50,7 @@ void emit(End end, vec2 offset, vec2 normal, int layer) {
 #else
     gl_Layer = layersPerCamera * construction.drawnCamera + layer;
 #endif
-    gl_Position = vec4(2.0 * (place - window.xy) * window.zw - 1.0, 0.5, 1.0);
+    gl_Position = vec4(2.0 * (place - window.min) * window.perExtent - 1.0, 0.5, 1.0);
     EmitVertex();
 }
 
@@ -74,7 +74,7 @@ void main() {
     vec4 ends = edgeEnds[0], normals = edgeNormals[0];
     vec2 along = normalize(ends.zw - ends.xy);
     vec2 normal = vec2(along.y, -along.x);
-    float overlap = overlapTexels * smoothies[camera].camera.depth.w;
+    float overlap = overlapTexels * smoothies[camera].camera.depth.texelSize;
     int halves = smoothies[camera].hasInnerHalf ? 2 : 1;
     for (int i = 0; i < halves; ++i) {
         int layer = i == 0 ? layerOuter : innerLayer(normal);

@@ -26,7 +26,7 @@ void main() {
 
     vec2 offset = place - closest;
     float distance_ = length(offset);
-    vec2 normal = distance_ > 1e-3 * smoothies[camera].camera.depth.w ? offset / distance_ : outward;
+    vec2 normal = distance_ > 1e-3 * smoothies[camera].camera.depth.texelSize ? offset / distance_ : outward;
     float width = smoothieWidth(camera, lightExtent(camera, place, normal).half_m, blocker, receiver);
     float alpha = dot(offset, outward) < 0.0 ? 0.0 : min(distance_ / width, 1.0);
     alphaAndDepth_m = vec2(alpha, isOrthographic(camera) ? -blocker : 1.0 / blocker);

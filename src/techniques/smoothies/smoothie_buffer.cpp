@@ -7,14 +7,14 @@
 
 #include "src/techniques/smoothies/smoothie_edges_io.h"
 
-namespace penumbra {
+namespace penumbra::smoothies {
 
 SmoothieBuffer::SmoothieBuffer(Device& device)
-    : deepestEdge_(device.internals().shaders, {"src/techniques/smoothies/smoothie.vert.glsl",
-                                                "src/techniques/smoothies/smoothie.geom.glsl",
-                                                "src/techniques/smoothies/smoothie.frag.glsl"}),
+    : deepestEdge_(internalsOf(device).shaders, {"src/techniques/smoothies/smoothie.vert.glsl",
+                                                 "src/techniques/smoothies/smoothie.geom.glsl",
+                                                 "src/techniques/smoothies/smoothie.frag.glsl"}),
       leastAlpha_(
-          device.internals().shaders,
+          internalsOf(device).shaders,
           {"src/techniques/smoothies/smoothie.vert.glsl", "src/techniques/smoothies/smoothie.geom.glsl",
            "src/techniques/smoothies/smoothie_alpha.frag.glsl"},
           {"STORED_ALPHA"}) {}
@@ -93,4 +93,4 @@ void SmoothieBuffer::inspect(InspectionVisitor& visitor) const {
                      .white = 0.5f});
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::smoothies

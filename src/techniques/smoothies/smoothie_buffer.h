@@ -7,7 +7,7 @@
 #include "src/gl/texture.h"
 #include "src/techniques/smoothies/smoothie_construction.h"
 
-namespace penumbra {
+namespace penumbra::smoothies {
 
 /// Chan and Durand 2003, section 3, step 4: smoothies drawn into the light's window.
 class SmoothieBuffer {
@@ -38,4 +38,4 @@ class SmoothieBuffer {
     int cameras_ = 0;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::smoothies

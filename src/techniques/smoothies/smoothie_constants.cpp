@@ -7,7 +7,7 @@
 
 #include "src/techniques/common/light_constants.h"
 
-namespace penumbra {
+namespace penumbra::smoothies {
 namespace {
 
 /// Half the penumbra's smallest width. Edges are known exactly; it softens what is left of the texels between
@@ -81,4 +81,4 @@ SmoothieConstants smoothieConstants(const SmoothieSettings& settings, const Shad
     };
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::smoothies

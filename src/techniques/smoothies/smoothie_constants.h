@@ -5,7 +5,7 @@
 #include "src/techniques/common/light_camera.h"
 #include "src/techniques/smoothies/smoothies_io.h"
 
-namespace penumbra {
+namespace penumbra::smoothies {
 
 /// The technique's parameters, as Smoothies::describe names them.
 struct SmoothieSettings {
@@ -20,4 +20,4 @@ struct SmoothieSettings {
 SmoothieConstants smoothieConstants(const SmoothieSettings& settings, const ShadowInputs& inputs,
                                     const LightCamera& camera, const LightSpaceScene& scene);
 
-}  // namespace penumbra
+}  // namespace penumbra::smoothies

@@ -3,7 +3,7 @@
 
 #include "src/techniques/smoothies/smoothie_edges_io.h"
 
-namespace penumbra {
+namespace penumbra::smoothies {
 
 void SurfaceMaps::bindTo(gl::Pass& pass) const {
     pass.bind("depthMaps", casters.texture())
@@ -11,11 +11,11 @@ void SurfaceMaps::bindTo(gl::Pass& pass) const {
 }
 
 SmoothieConstruction::SmoothieConstruction(Device& device)
-    : farthest_(device.internals().shaders, {"src/techniques/smoothies/farthest.comp.glsl"}),
-      build_(device.internals().shaders, {"src/techniques/smoothies/smoothie_edges.comp.glsl"}),
-      clearNormals_(device.internals().shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"},
+    : farthest_(internalsOf(device).shaders, {"src/techniques/smoothies/farthest.comp.glsl"}),
+      build_(internalsOf(device).shaders, {"src/techniques/smoothies/smoothie_edges.comp.glsl"}),
+      clearNormals_(internalsOf(device).shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"},
                     {"CLEAR"}),
-      addNormals_(device.internals().shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"}) {}
+      addNormals_(internalsOf(device).shaders, {"src/techniques/smoothies/vertex_normals.comp.glsl"}) {}
 
 void SmoothieConstruction::build(const SilhouetteExtractor& silhouettes, const SurfaceMaps& surfaces,
                                  const gl::Buffer& constants, bool isDistant) {
@@ -63,4 +63,4 @@ void SmoothieConstruction::build(const SilhouetteExtractor& silhouettes, const S
         .dispatchIndirect(silhouettes.commands(), SilhouetteExtractor::dispatchOffset);
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::smoothies

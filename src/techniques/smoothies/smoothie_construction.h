@@ -5,7 +5,7 @@
 #include "src/techniques/common/depth_map.h"
 #include "src/techniques/smoothies/smoothies_io.h"
 
-namespace penumbra {
+namespace penumbra::smoothies {
 
 /// What the light sees where: the nearest caster, and, where there is any, what receives without casting. See
 /// surfaces.glsl.
@@ -35,4 +35,4 @@ class SmoothieConstruction {
     gl::Buffer farthestTiles_, vertexNormals_, smoothieEdges_;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::smoothies

@@ -82,8 +82,8 @@ vec3 homogeneous(int camera, vec3 posFace) { return isOrthographic(camera) ? vec
 // Cuts off what lies farther than `reach` outside the window. False: all of it. Done before the division by depth, which
 // puts an end that is close to the light's plane so far away that nothing in the window keeps its precision.
 bool clipToWindow(int camera, float reach, inout vec3 a, inout vec3 b) {
-    vec4 window = smoothies[camera].camera.window;
-    vec2 low = window.xy - reach, high = window.xy + 1.0 / window.zw + reach;
+    MapWindow window = smoothies[camera].camera.window;
+    vec2 low = window.min - reach, high = window.min + 1.0 / window.perExtent + reach;
     vec3 ha = homogeneous(camera, a), hb = homogeneous(camera, b);
     vec2 segment = vec2(0.0, 1.0);
     for (int i = 0; i < 2; ++i) {
@@ -128,7 +128,7 @@ SmoothieEdge build(int camera, uint index) {
     }
     widths = boundByReceivers(camera, placeA, placeB, nearness, widths);
     float span = distance(placeA, placeB);
-    if (!(span > 1e-6 * c.camera.depth.w)) return nothing;  // points at the light: its neighbours' corners cover it
+    if (!(span > 1e-6 * c.camera.depth.texelSize)) return nothing;  // points at the light: its neighbours' corners cover it
 
     vec2 along = (placeB - placeA) / span;
     vec2 side = vec2(along.y, -along.x);

@@ -5,7 +5,7 @@
 
 #ifdef __cplusplus
 #include <glm/glm.hpp>
-namespace penumbra {
+namespace penumbra::smoothies {
 using glm::vec2;
 using glm::vec4;
 #endif
@@ -23,6 +23,6 @@ struct SmoothieEdge {
 
 #ifdef __cplusplus
 static_assert(sizeof(SmoothieEdge) == 48);
-}  // namespace penumbra
+}  // namespace penumbra::smoothies
 #endif
 #endif

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace penumbra {
+namespace penumbra::smoothies {
 namespace {
 
 constexpr std::array<std::string_view, 2> buffers = {"edges", "alpha"};
@@ -29,13 +29,13 @@ bool isMasked(const Caster& caster) {
 
 Smoothies::PicturePrograms::PicturePrograms(Device& device, const std::string& file,
                                             std::vector<std::string> defines)
-    : withoutNormals(device.internals().shaders, {"src/techniques/smoothies/" + file}, defines) {
+    : withoutNormals(internalsOf(device).shaders, {"src/techniques/smoothies/" + file}, defines) {
     defines.emplace_back("WITH_NORMALS");
-    withNormals = gl::Program(device.internals().shaders, {"src/techniques/smoothies/" + file}, defines);
+    withNormals = gl::Program(internalsOf(device).shaders, {"src/techniques/smoothies/" + file}, defines);
 }
 
 Smoothies::Smoothies(Device& device)
-    : device_(device.internals()),
+    : device_(internalsOf(device)),
       depthMap_(device),
       maskedMap_(device),
       receiverMap_(device),
@@ -87,7 +87,7 @@ void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scen
                          const LightCameras& cameras) {
     const auto casting = [&](auto&& which) {
         std::pmr::vector<Caster> casters(inputs.casters.begin(), inputs.casters.end(),
-                                         gl::LedgerScope::frameMemory());
+                                         gl::ObjectRegistryScope::frameMemory());
         for (Caster& caster : casters) caster.casts = which(caster);
         return casters;
     };
@@ -149,7 +149,7 @@ void Smoothies::drawSmoothies(const ShadowInputs& inputs, const LightSpaceScene&
         .casters = depthMap_, .receivers = receiverMap_, .hasReceivers = hasReceiverMap_};
     {
         const auto pass = timers_.pass("smoothies/silhouettes");
-        std::pmr::vector<SilhouetteSource> sources{gl::LedgerScope::frameMemory()};
+        std::pmr::vector<SilhouetteSource> sources{gl::ObjectRegistryScope::frameMemory()};
         for (std::size_t i = 0; i < inputs.casters.size(); ++i) {
             const Caster& caster = inputs.casters[i];
             if (caster.casts && !isMasked(caster)) sources.push_back({caster.mesh, scene.lightFromMesh[i]});
@@ -283,4 +283,4 @@ Statistics Smoothies::statistics() const {
     return statistics;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::smoothies

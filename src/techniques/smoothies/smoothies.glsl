@@ -10,30 +10,30 @@
 //     w = h (nb - nr),   h = max over s of dot(n, s.xy - s.z q).
 // With t = h nb that is t (1 - b/r): equation 1, with the size of the smoothie that the light asks for. For a distant
 // light h is the tangent of half its angle.
+#include "src/techniques/common/map_depth.glsl"
 #include "src/techniques/smoothies/smoothies_io.h"
 
 // A uniform block, since storage blocks are read lane by lane on software rasterisers.
 layout(std140) uniform SmoothieBlock { SmoothieConstants smoothies[maxSmoothieCameras]; };
 
-bool isOrthographic(int camera) { return smoothies[camera].camera.depth.z == 1.0; }
+bool isOrthographic(int camera) { return smoothies[camera].camera.depth.isOrthographic; }
 
 float nearnessOf(int camera, float depth_m) { return isOrthographic(camera) ? -depth_m : 1.0 / depth_m; }
 
 // The same for a value in the depth map; where that is empty, of the farthest receiver.
 float storedNearness(int camera, float stored) {
     if (stored == 0.0) return smoothies[camera].farthestReceiver;
-    vec4 depth = smoothies[camera].camera.depth;
-    return depth.z == 1.0 ? stored * (depth.y - depth.x) - depth.y : stored / depth.x;
+    return storedNearness(smoothies[camera].camera.depth, stored);
 }
 
 vec2 placeOf(int camera, vec2 uv) {
-    vec4 window = smoothies[camera].camera.window;
-    return uv / window.zw + window.xy;
+    MapWindow window = smoothies[camera].camera.window;
+    return uv / window.perExtent + window.min;
 }
 
 vec2 uvOf(int camera, vec2 place) {
-    vec4 window = smoothies[camera].camera.window;
-    return (place - window.xy) * window.zw;
+    MapWindow window = smoothies[camera].camera.window;
+    return (place - window.min) * window.perExtent;
 }
 
 ivec2 texelOf(int camera, vec2 place, int size_px) {

@@ -19,7 +19,7 @@
 #include "src/techniques/smoothies/smoothie_constants.h"
 #include "src/techniques/smoothies/smoothie_construction.h"
 
-namespace penumbra {
+namespace penumbra::smoothies {
 
 class Smoothies final : public Technique {
   public:
@@ -71,4 +71,4 @@ class Smoothies final : public Technique {
     bool saidMasked_ = false;  ///< once is enough
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::smoothies

@@ -8,7 +8,7 @@
 #include "src/techniques/common/light_io.h"
 
 #ifdef __cplusplus
-namespace penumbra {
+namespace penumbra::smoothies {
 #endif
 
 const int maxSmoothieCameras = 6;  // the faces of a cube
@@ -65,6 +65,6 @@ SHARED_STRUCT PictureConstants {
 
 #ifdef __cplusplus
 static_assert(sizeof(SmoothieConstants) == 256);
-}  // namespace penumbra
+}  // namespace penumbra::smoothies
 #endif
 #endif

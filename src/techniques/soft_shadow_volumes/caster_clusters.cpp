@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <string>
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 namespace {
 
 gl::Program program(Device& device, std::string_view name) {
-    return {device.internals().shaders,
+    return {internalsOf(device).shaders,
             {"src/techniques/soft_shadow_volumes/" + std::string(name) + ".comp.glsl"}};
 }
 
@@ -79,4 +79,4 @@ std::size_t CasterClusters::size_bytes() const {
     return triangles_.size_bytes() + clusters_.size_bytes() + clusterLists_.size_bytes();
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

@@ -8,7 +8,7 @@
 #include "src/gl/program.h"
 #include "src/techniques/soft_shadow_volumes/volume_frame.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 
 /// Where the receivers are.
 struct Receivers {
@@ -49,4 +49,4 @@ class CasterClusters {
     unsigned count_ = 0;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

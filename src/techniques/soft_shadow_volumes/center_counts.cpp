@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/techniques/soft_shadow_volumes/center_counts.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 
 CenterCounts::CenterCounts(Device& device)
-    : count_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/center_counts.comp.glsl"}) {}
+    : count_(internalsOf(device).shaders, {"src/techniques/soft_shadow_volumes/center_counts.comp.glsl"}) {}
 
 void CenterCounts::countBatch(const VolumeFrame& frame, const FrameBinding& binding, CasterClusters& clusters,
                               const Receivers& receivers) {
@@ -43,4 +43,4 @@ void CenterCounts::count(const VolumeFrame& frame, const FrameBinding& binding, 
     if (clusters.count() > 0) countBatch(frame, binding, clusters, receivers);
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

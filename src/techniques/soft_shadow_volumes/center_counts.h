@@ -5,7 +5,7 @@
 
 #include "src/techniques/soft_shadow_volumes/caster_clusters.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 
 class CenterCounts {
   public:
@@ -25,4 +25,4 @@ class CenterCounts {
     gl::Texture counts_;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

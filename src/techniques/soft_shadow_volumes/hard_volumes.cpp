@@ -3,12 +3,12 @@
 
 #include <array>
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 
 HardVolumes::HardVolumes(Device& device)
-    : device_(device.internals()),
+    : device_(internalsOf(device)),
       counter_(device),
-      resolve_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/hard_volumes.comp.glsl"}),
+      resolve_(internalsOf(device).shaders, {"src/techniques/soft_shadow_volumes/hard_volumes.comp.glsl"}),
       alphaMaskWarning_(device) {}
 
 void HardVolumes::describe(ParameterVisitor& visitor) {
@@ -50,4 +50,4 @@ Statistics HardVolumes::statistics() const {
     return {.counts = {{"edges", double(counter_.silhouettes().edgeCount())}}, .passes = passTimes(timers_)};
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

@@ -8,7 +8,7 @@
 #include "src/techniques/common/view_constants.h"
 #include "src/techniques/soft_shadow_volumes/volume_counter.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 
 class HardVolumes final : public Technique {
   public:
@@ -32,4 +32,4 @@ class HardVolumes final : public Technique {
     gl::PassTimers timers_;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 namespace {
 
 /// Points that fill the unit square or disk evenly, none on a line with many others: whatever edge crosses
@@ -40,8 +40,8 @@ constexpr int tableColumns = 512, tableRows = 129;  // as light_table.glsl has i
 }  // namespace
 
 LightPoints::LightPoints(Device& device)
-    : radiance_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/soft_radiance.comp.glsl"}),
-      makeTable_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/light_table.comp.glsl"}),
+    : radiance_(internalsOf(device).shaders, {"src/techniques/soft_shadow_volumes/soft_radiance.comp.glsl"}),
+      makeTable_(internalsOf(device).shaders, {"src/techniques/soft_shadow_volumes/light_table.comp.glsl"}),
       table_({.width_px = tableColumns,
               .height_px = tableRows,
               .format = gl::Format::rgba32f,
@@ -79,4 +79,4 @@ void LightPoints::bindTo(gl::Pass& pass) const {
     if (pass.has("lightTable")) pass.bind("lightTable", table_);
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

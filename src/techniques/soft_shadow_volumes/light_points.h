@@ -8,7 +8,7 @@
 #include "src/gl/pass.h"
 #include "src/techniques/soft_shadow_volumes/volume_frame.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 
 class LightPoints {
   public:
@@ -34,4 +34,4 @@ class LightPoints {
     bool onSquare_ = false;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 namespace {
 
 constexpr int pointsAWord = 32;
@@ -77,4 +77,4 @@ void MaskedPoints::mark(const VolumeFrame& frame, const FrameBinding& binding, C
     clusters.clear();
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

@@ -5,11 +5,11 @@
 #include "src/techniques/soft_shadow_volumes/caster_clusters.h"
 #include "src/techniques/soft_shadow_volumes/light_points.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 
 class MaskedPoints {
   public:
-    explicit MaskedPoints(Device& device) : device_(device.internals()) {}
+    explicit MaskedPoints(Device& device) : device_(internalsOf(device)) {}
 
     /// Asks all masked casters of the frame.
     void mark(const VolumeFrame& frame, const FrameBinding& binding, CasterClusters& clusters,
@@ -28,4 +28,4 @@ class MaskedPoints {
     int markSamples_ = 0;  // that `mark_` was made for
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

@@ -7,7 +7,7 @@
 
 #include "src/geometry/edge_mesh.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 namespace {
 
 constexpr std::array<std::string_view, 3> sizePasses = {
@@ -17,14 +17,15 @@ constexpr int framesToSettle = 5;  // one more than PassTimers keeps in flight
 }  // namespace
 
 SoftVolumes::SoftVolumes(Device& device)
-    : isSoftware_(device.internals().isSoftware),
+    : isSoftware_(internalsOf(device).isSoftware),
       counter_(device),
       layers_(device),
       wedges_(device),
-      hardResolve_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/hard_volumes.comp.glsl"}),
-      upsampleEven_(device.internals().shaders,
+      hardResolve_(internalsOf(device).shaders,
+                   {"src/techniques/soft_shadow_volumes/hard_volumes.comp.glsl"}),
+      upsampleEven_(internalsOf(device).shaders,
                     {"src/techniques/soft_shadow_volumes/upsample_even.comp.glsl"}),
-      upsample_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/upsample.comp.glsl"}),
+      upsample_(internalsOf(device).shaders, {"src/techniques/soft_shadow_volumes/upsample.comp.glsl"}),
       alphaMaskWarning_(device) {
     effort_.roundWork = isSoftware_ ? TileLayers::softwareRoundWork : TileLayers::hardwareRoundWork;
 }
@@ -184,4 +185,4 @@ Statistics SoftVolumes::statistics() const {
     return statistics;
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

@@ -11,7 +11,7 @@
 #include "src/techniques/soft_shadow_volumes/volume_counter.h"
 #include "src/techniques/soft_shadow_volumes/wedge_raster.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 
 class SoftVolumes final : public Technique {
   public:
@@ -54,4 +54,4 @@ class SoftVolumes final : public Technique {
     gl::PassTimers sizeTimers_;  // whole frames, a pass for each size of the V-buffer
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

@@ -7,7 +7,7 @@
 
 #include "src/geometry/edge_mesh.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 namespace {
 
 std::string shader(std::string_view name) {
@@ -35,7 +35,7 @@ unsigned edgesAtOnce(int samples) {
 }  // namespace
 
 TileLayers::TileLayers(Device& device)
-    : device_(device.internals()),
+    : device_(internalsOf(device)),
       gather_(device_.shaders, {shader("soft_gather")}),
       cuts_(device_.shaders, {shader("soft_cuts")}),
       boxes_(device_.shaders, {shader("soft_boxes")}),
@@ -244,4 +244,4 @@ std::size_t TileLayers::size_bytes() const {
            tileLists_.size_bytes() + states_.size_bytes() + rounds_.size_bytes() + clusters_.size_bytes();
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

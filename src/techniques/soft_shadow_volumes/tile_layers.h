@@ -11,7 +11,7 @@
 #include "src/techniques/soft_shadow_volumes/masked_points.h"
 #include "src/techniques/soft_shadow_volumes/volume_counter.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 
 class TileLayers {
   public:
@@ -67,4 +67,4 @@ class TileLayers {
     bool isLimited_ = false;       // to less than there may be
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

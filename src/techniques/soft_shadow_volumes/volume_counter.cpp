@@ -6,7 +6,7 @@
 
 #include "src/gl/pass.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 namespace {
 
 constexpr const char* folder = "src/techniques/soft_shadow_volumes/";
@@ -14,7 +14,7 @@ constexpr const char* folder = "src/techniques/soft_shadow_volumes/";
 gl::Program program(Device& device, std::initializer_list<const char*> files) {
     std::vector<std::string> paths;
     for (const char* file : files) paths.push_back(std::string(folder) + file);
-    return {device.internals().shaders, paths};
+    return {internalsOf(device).shaders, paths};
 }
 
 struct CapCommand {
@@ -87,7 +87,7 @@ void VolumeCounter::examineEye(const VolumeFrame& frame, const FrameBinding& bin
             .dispatchIndirect(silhouettes_.commands(), SilhouetteExtractor::dispatchOffset);
     }
 
-    std::pmr::vector<CapCommand> commands{gl::LedgerScope::frameMemory()};
+    std::pmr::vector<CapCommand> commands{gl::ObjectRegistryScope::frameMemory()};
     for (const SilhouetteSource& source : frame.sources) {
         commands.insert(commands.end(), 2, {GLuint(source.mesh->indices().size()), 0, 0, 0, 0});
     }
@@ -171,4 +171,4 @@ void VolumeCounter::bindTo(gl::Pass& pass) const {
     pass.bind("volumeCounts", counts_).bind("Eye", eye_);
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

@@ -9,7 +9,7 @@
 #include "src/gl/texture.h"
 #include "src/techniques/soft_shadow_volumes/volume_frame.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 
 /// How crossings of a volume's sides are counted.
 enum class Counting {
@@ -62,4 +62,4 @@ class VolumeCounter {
     gl::Framebuffer framebuffer_;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

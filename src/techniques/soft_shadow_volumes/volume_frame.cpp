@@ -11,7 +11,7 @@
 #include "src/techniques/common/light_camera.h"
 #include "src/techniques/common/view_constants.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 namespace {
 
 /// Where all lines of sight meet, in view space: the point that clip space has at (0, 0, infinity). An
@@ -190,4 +190,4 @@ void bindMesh(gl::Pass& pass, const Mesh& mesh) {
     pass.bind("Indices", gl::HostBuffer{mesh.indexBuffer()});
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

@@ -12,7 +12,7 @@
 #include "src/techniques/common/view_constants.h"
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 
 /// A caster with holes.
 struct MaskedSource {
@@ -25,14 +25,14 @@ struct VolumeFrame {
     glm::dmat4 lightFromWorld{1};
     VolumeConstants constants{};
     /// The casters that cast and have triangles; where layers are asked for, but for those with holes.
-    std::pmr::vector<SilhouetteSource> sources{gl::LedgerScope::frameMemory()};
-    std::pmr::vector<MaskedSource> masked{gl::LedgerScope::frameMemory()};
+    std::pmr::vector<SilhouetteSource> sources{gl::ObjectRegistryScope::frameMemory()};
+    std::pmr::vector<MaskedSource> masked{gl::ObjectRegistryScope::frameMemory()};
 
     /// For each source: as how many layers a triangle of it counts.
-    std::pmr::vector<int> layersEach{gl::LedgerScope::frameMemory()};
+    std::pmr::vector<int> layersEach{gl::ObjectRegistryScope::frameMemory()};
 
     /// For each source: whether it may cut through the light.
-    std::pmr::vector<bool> cutsLight = std::pmr::vector<bool>(gl::LedgerScope::frameMemory());
+    std::pmr::vector<bool> cutsLight = std::pmr::vector<bool>(gl::ObjectRegistryScope::frameMemory());
 
     /// A triangle may lie between the eye and a receiver without being seen: before the near plane, as it may
     /// in every orthographic view.
@@ -57,7 +57,7 @@ struct VolumeFrame {
 /// triangles', and a masked caster blocks as a whole.
 class AlphaMaskWarning {
   public:
-    explicit AlphaMaskWarning(Device& device) : log_(device.internals().log) {}
+    explicit AlphaMaskWarning(Device& device) : log_(internalsOf(device).log) {}
     void check(std::span<const Caster> casters);
 
   private:
@@ -81,4 +81,4 @@ MeshConstants meshConstants(const VolumeFrame& frame, std::size_t index, std::si
 /// Of a caster's mesh, what of it the pass's shaders declare: `Positions` and `Indices`.
 void bindMesh(gl::Pass& pass, const Mesh& mesh);
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

@@ -6,7 +6,7 @@
 #include "src/techniques/common/light_io.h"
 
 #ifdef __cplusplus
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 using glm::dmat4;
 #endif
 
@@ -139,7 +139,7 @@ struct EyeState {
 static_assert(sizeof(VolumeConstants) == 160 && sizeof(MeshConstants) == 160 && sizeof(LightEdge) == 64 &&
               sizeof(EyeState) == 64);
 static_assert(sizeof(LightTriangle) == 64 && sizeof(TriangleCluster) == 32);
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes
 #else
 const float wholeFace = 2.0;
 layout(std140) uniform VolumeBlock {

@@ -7,7 +7,7 @@
 #include "src/geometry/edge_mesh.h"
 #include "src/gl/pass.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 namespace {
 
 constexpr const char* wedgeVertices = "src/techniques/soft_shadow_volumes/wedge.vert.glsl";
@@ -16,11 +16,11 @@ constexpr int verticesPerWedge = 24;
 }  // namespace
 
 WedgeRaster::WedgeRaster(Device& device)
-    : wedges_(device.internals().shaders,
+    : wedges_(internalsOf(device).shaders,
               {wedgeVertices, "src/techniques/soft_shadow_volumes/wedge.frag.glsl"}),
-      marks_(device.internals().shaders,
+      marks_(internalsOf(device).shaders,
              {wedgeVertices, "src/techniques/soft_shadow_volumes/wedge_mark.frag.glsl"}),
-      resolve_(device.internals().shaders, {"src/techniques/soft_shadow_volumes/wedge_resolve.comp.glsl"}),
+      resolve_(internalsOf(device).shaders, {"src/techniques/soft_shadow_volumes/wedge_resolve.comp.glsl"}),
       points_(device) {}
 
 void WedgeRaster::countAsBlockers(VolumeFrame& frame) {
@@ -185,4 +185,4 @@ void WedgeRaster::inspect(InspectionVisitor& visitor) const {
         visitor.texture({.name = "wedges as wireframe", .texture = wireframe_.name()});
 }
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

@@ -8,7 +8,7 @@
 #include "src/techniques/soft_shadow_volumes/light_points.h"
 #include "src/techniques/soft_shadow_volumes/volume_counter.h"
 
-namespace penumbra {
+namespace penumbra::soft_shadow_volumes {
 
 class WedgeRaster {
   public:
@@ -55,4 +55,4 @@ class WedgeRaster {
     gl::Framebuffer framebuffer_, wireframeFramebuffer_;
 };
 
-}  // namespace penumbra
+}  // namespace penumbra::soft_shadow_volumes

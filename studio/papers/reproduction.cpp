@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "studio/papers/press.h"
+#include "studio/papers/reproduction.h"
 
 #include <fmt/format.h>
 
@@ -57,12 +57,13 @@ std::optional<double> mapsOf(const TechniqueComparison& technique) {
     return std::nullopt;
 }
 
-class Press {
+class Reproduction {
   public:
-    Press(Workbench& workbench, const PressOptions& options) : workbench_(workbench), options_(options) {}
+    Reproduction(Workbench& workbench, const ReproductionOptions& options)
+        : workbench_(workbench), options_(options) {}
 
-    FigureResult print(const Figure& figure);
-    TableResult print(const Table& table);
+    FigureResult evaluate(const Figure& figure);
+    TableResult evaluate(const Table& table);
 
   private:
     /// The technique and its settings where they exist; else says so in `missing`.
@@ -93,13 +94,13 @@ class Press {
                                             std::vector<std::string>& standIns);
 
     Workbench& workbench_;
-    const PressOptions& options_;
+    const ReproductionOptions& options_;
     std::string openKey_;
     std::unique_ptr<Stage> stage_;
 };
 
 /// By label; of those that exist.
-std::map<std::string, Spread> Press::costs(const StageView& view, std::vector<Contender> contenders) {
+std::map<std::string, Spread> Reproduction::costs(const StageView& view, std::vector<Contender> contenders) {
     std::map<std::string, Spread> costs_ms;
     if (contenders.empty()) return costs_ms;
     contenders.insert(contenders.begin(), {.label = "yardstick", .technique = "hard", .settings = {}});
@@ -112,8 +113,8 @@ std::map<std::string, Spread> Press::costs(const StageView& view, std::vector<Co
 }
 
 /// Everything that the figure wants of one situation, by keyOf().
-std::map<std::string, Rendering> Press::render(const Figure& figure, const Situation& situation,
-                                               std::vector<std::string>& standIns) {
+std::map<std::string, Rendering> Reproduction::render(const Figure& figure, const Situation& situation,
+                                                      std::vector<std::string>& standIns) {
     const StageView view = enter(situation, standIns);
     std::map<std::string, Rendering> renderings;
     std::vector<Contender> contenders, timed;
@@ -157,7 +158,7 @@ std::map<std::string, Rendering> Press::render(const Figure& figure, const Situa
     return renderings;
 }
 
-FigureResult Press::print(const Figure& figure) {
+FigureResult Reproduction::evaluate(const Figure& figure) {
     FigureResult result{.figure = figure, .panels = {}, .claims = {}, .standIns = {}, .plot = {}};
     std::vector<std::pair<Situation, std::map<std::string, Rendering>>> all;
     const auto in = [&](const Situation& situation) -> std::map<std::string, Rendering>& {
@@ -244,7 +245,7 @@ FigureResult Press::print(const Figure& figure) {
     return result;
 }
 
-TableResult Press::print(const Table& table) {
+TableResult Reproduction::evaluate(const Table& table) {
     TableResult result{.table = table, .cells = std::vector<CellResult>(table.cells.size()), .standIns = {}};
     // One contest a column, lest a whole table's maps are on the device at once.
     std::vector<std::pair<Situation, std::string>> columns;
@@ -286,18 +287,18 @@ TableResult Press::print(const Table& table) {
 
 }  // namespace
 
-PaperResult reproduce(Workbench& workbench, const Paper& paper, const PressOptions& options) {
-    Press press(workbench, options);
+PaperResult reproduce(Workbench& workbench, const Paper& paper, const ReproductionOptions& options) {
+    Reproduction reproduction(workbench, options);
     PaperResult result{.paper = paper, .figures = {}, .tables = {}};
     const double parts = double(paper.figures.size() + paper.tables.size());
     double done = 0;
     for (const Figure& figure : paper.figures) {
         options.progress(done++ / parts, figure.id);
-        result.figures.push_back(press.print(figure));
+        result.figures.push_back(reproduction.evaluate(figure));
     }
     for (const Table& table : paper.tables) {
         options.progress(done++ / parts, table.id);
-        result.tables.push_back(press.print(table));
+        result.tables.push_back(reproduction.evaluate(table));
     }
     return result;
 }

@@ -62,7 +62,7 @@ struct PaperResult {
     std::vector<TableResult> tables;
 };
 
-struct PressOptions {
+struct ReproductionOptions {
     PictureSize size{480, 270};
     int samples = 128;             ///< rays a pixel of the truth
     int rounds = 3;                ///< measured ones, for each cost
@@ -72,6 +72,6 @@ struct PressOptions {
 };
 
 /// Reproduces a whole paper. What does not exist yet is said in the results and ends nothing.
-PaperResult reproduce(Workbench& workbench, const Paper& paper, const PressOptions& options);
+PaperResult reproduce(Workbench& workbench, const Paper& paper, const ReproductionOptions& options);
 
 }  // namespace penumbra::studio
