@@ -40,5 +40,25 @@ TEST_F(GroundTest, HidesNothingFromTheReference) {
     expectGroundHidesNothing("reference", {{"samples", "32"}, {"cache", "false"}}, 0);
 }
 
+/// Techniques that see by maps or edges answer for texels and edges that the ground has and the box has not:
+/// single pixels may differ, but no part of the ground.
+class GroundOfEveryTechnique : public GroundTest, public ::testing::WithParamInterface<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(Catalog, GroundOfEveryTechnique, everyTechnique(), techniqueTestName);
+
+TEST_P(GroundOfEveryTechnique, HidesNothing) {
+    const std::unique_ptr<Technique> technique = workbench().makeTechnique(GetParam());
+    if (GetParam() == "uniform") setParameter(*technique, "samples", "5");
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+        const RandomGround ground = makeRandomGround(seed);
+        const Image casting = render(*technique, ground.casting, size).visibility;
+        const Image receiving = render(*technique, ground.receiving, size).visibility;
+        int darker = 0;
+        for (std::size_t i = 0; i < casting.values.size(); ++i)
+            darker += casting.values[i] < receiving.values[i] - 0.1f;
+        EXPECT_LE(double(darker), 0.01 * double(casting.values.size())) << ground.description;
+    }
+}
+
 }  // namespace
 }  // namespace penumbra::studio

@@ -73,6 +73,14 @@ double TechniqueTest::shareOfDifferentPixels(const LightResult& a, const LightRe
     return reached == 0 ? 0 : double(different) / double(reached);
 }
 
+std::optional<std::filesystem::path> fieldScenes() {
+    const char* const variable = std::getenv("PENUMBRA_SHARED_SCENES");
+    const std::filesystem::path field =
+        std::filesystem::path(variable ? variable : PENUMBRA_DEFAULT_SHARED_SCENES) / "field";
+    std::error_code error;
+    return std::filesystem::is_directory(field, error) ? std::optional(field) : std::nullopt;
+}
+
 Scene withLight(Scene scene, const std::function<void(Light&)>& change) {
     return withMoment(std::move(scene), [change](SceneMoment& moment) {
         moment.lights.resize(1);

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -60,6 +62,10 @@ inline std::string techniqueTestName(const ::testing::TestParamInfo<std::string>
     std::erase(name, '-');
     return name;
 }
+
+/// Where scenes lie that people met, if they are at hand: PENUMBRA_SHARED_SCENES, or beside the project.
+/// Tests that need them skip without.
+std::optional<std::filesystem::path> fieldScenes();
 
 /// The scene with another light in place of all its own; `change` gets its first light to start from.
 Scene withLight(Scene scene, const std::function<void(Light&)>& change);

@@ -9,8 +9,10 @@ layout(std140) uniform Constants { MeshConstants mesh; };
 layout(location = 0) flat out float change;
 
 // A near cap is moved away from the eye by this share of its distance: a receiver is the side of the surface that the
-// eye sees, so that its own cap lies behind it.
-const float fromEye = 2e-5;
+// eye sees, so that its own cap lies behind it. And by no less than rounding moves a plane whose corners are far away, a
+// ground's for instance, of which the eye sees what lies before its feet: by this share of how far the corners are.
+const float fromEye = 2e-5, ofCorners = 2e-6;
+const float mostFromEye = 0.1;  // of a plane that is all but seen edge-on
 
 vec3 cornerLight(uint index) {
     uint i = 3u * indices[index];
@@ -31,6 +33,13 @@ void main() {
     float ofEye = dot(normal, volume.eyeLight.xyz - volume.eyeLight.w * a);
     float ofLight = volume.light.shape == shapeDistant ? normal.z : -dot(normal, a);
     change = mesh.sign * float(ofEye * ofLight >= 0.0 ? mesh.layersEach : -mesh.layersEach);
-    vec3 toEye = volume.eyeLight.w == 0.0 ? volume.eyeLight.xyz * length(place) : volume.eyeLight.xyz - place;
-    gl_Position = volume.clipFromLight * vec4(place - fromEye * toEye, 1.0);
+    if (volume.eyeLight.w == 0.0) {
+        gl_Position = volume.clipFromLight * vec4(place - fromEye * length(place) * volume.eyeLight.xyz, 1.0);
+        return;
+    }
+    // All of a triangle's corners are moved by the same share, so that it stays a plane, and parallel.
+    float corners_m = sqrt(max(dot(a, a), max(dot(b, b), dot(c, c))));
+    float height_m = abs(ofEye) / length(normal);
+    float share = min(max(fromEye, ofCorners * corners_m / height_m), mostFromEye);
+    gl_Position = volume.clipFromLight * vec4(place + share * (place - volume.eyeLight.xyz), 1.0);
 }

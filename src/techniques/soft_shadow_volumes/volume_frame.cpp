@@ -73,6 +73,22 @@ LightBox boxOf(const Mesh& mesh, const glm::dmat4& lightFromMesh) {
     return result;
 }
 
+/// No more than the distance from a point in light space to a mesh. Asked in the mesh's own space, where the
+/// box of a floor is flat.
+double leastDistance(const Mesh& mesh, const glm::dmat4& lightFromMesh, const glm::dvec4& light) {
+    const glm::dmat4 meshFromLight = glm::inverse(lightFromMesh);
+    const glm::dvec3 point(meshFromLight * light);
+    const Box& box = mesh.bounds();
+    const glm::dvec3 low(box.min.x, box.min.y, box.min.z), high(box.max.x, box.max.y, box.max.z);
+    // What the way into the mesh's space stretches by at most: the square of the norm is the largest
+    // eigenvalue of A^T A, and no eigenvalue is larger than a row's sum (Gershgorin).
+    const glm::dmat3 gram = glm::transpose(glm::dmat3(meshFromLight)) * glm::dmat3(meshFromLight);
+    double largest = 0;
+    for (int i = 0; i < 3; ++i)
+        largest = std::max(largest, std::abs(gram[i][0]) + std::abs(gram[i][1]) + std::abs(gram[i][2]));
+    return glm::distance(glm::clamp(point, low, high), point) / std::sqrt(largest);
+}
+
 }  // namespace
 
 void AlphaMaskWarning::check(std::span<const Caster> casters) {
@@ -137,8 +153,7 @@ VolumeFrame::VolumeFrame(const ShadowInputs& inputs, int pixelsPerTexel, Count c
         sources.push_back(source);
         layersEach.push_back(1);
         cutsLight.push_back(isCut(box));
-        mayHide = mayHide || !(glm::distance(glm::clamp(glm::dvec3(eyeLight), box.low, box.high),
-                                             glm::dvec3(eyeLight)) > reach_m);
+        mayHide = mayHide || !(leastDistance(*caster.mesh, source.lightFromMesh, eyeLight) > reach_m);
     }
 
     constants.clipFromLight = bufferFromClip(view, size_px, pixelsPerTexel) * toGlm(view.clipFromView) *
