@@ -184,7 +184,7 @@ TEST_F(CommandTest, WrongExposuresAreRefused) {
 }
 
 TEST_F(CommandTest, AntialiasingAveragesSamplesOfVisibility) {
-    const std::string render = "render half-plane -t hard --size 32x32 --visibility ";
+    const std::string render = "render two-boxes -t hard --size 32x32 --visibility ";
     const auto between = [&](const std::string& file) {
         const Image seen = imageOf(readExr(file), "V");
         return std::ranges::count_if(seen.values, [](float v) { return v > 0 && v < 1; });

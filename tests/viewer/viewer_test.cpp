@@ -208,10 +208,26 @@ TEST_F(ViewerTest, LeavingUnsavedLightsAsks) {
     EXPECT_EQ(session().document().moment().lights.size(), count);
     ASSERT_TRUE(viewer().frame(false));
 
-    key("ctrl+q");
+    const std::string other = writeScene("other.gltf");
+    const char* paths[] = {other.c_str()};
+    GLFWwindow* window = viewer().window().handle();
+    const GLFWdropfun drop = glfwSetDropCallback(window, nullptr);
+    glfwSetDropCallback(window, drop);
+    drop(window, 1, paths);
+    frames();
+    ASSERT_TRUE(viewer().windowState().leaving);
+    EXPECT_EQ(session().document().nameOrPath(), at("box.gltf"));
     clickWidget("Save lights and go on");
     EXPECT_TRUE(std::filesystem::exists(at("box.lights.json")));
-    EXPECT_FALSE(viewer().frame(false));
+    EXPECT_EQ(session().document().nameOrPath(), other);
+
+    clickWidget("Add");
+    paths[0] = "two-boxes";
+    drop(window, 1, paths);
+    frames();
+    clickWidget("Drop the changes");
+    EXPECT_EQ(session().document().nameOrPath(), "two-boxes");
+    EXPECT_FALSE(std::filesystem::exists(at("other.lights.json")));
 }
 
 TEST_F(ViewerTest, LightsMoveTurnAndGrowByHand) {

@@ -17,6 +17,9 @@
 namespace penumbra::studio {
 namespace {
 
+using shadow_width_map::exactShadowWidths;
+using shadow_width_map::fitMapCameras;
+
 class ShadowWidthTest : public TechniqueTest {
   protected:
     static constexpr PictureSize size{160, 120};
