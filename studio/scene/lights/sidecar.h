@@ -32,6 +32,8 @@ struct SidecarLight {
     glm::dmat4 parentFromLight{1};  ///< rigid
     std::string node;               ///< the parent, by name; empty: the coordinates of the scene's file
     bool isInWorld = false;         ///< has Y up whatever the scene's file has: the sun
+    /// The parent is the middle of the node's underside, with the world's axes.
+    bool isBelow = false;
     std::optional<SidecarProfile> profile;
     std::string textureFile;  ///< relative to the file's folder, or empty
     int nodeLine = 0, textureLine = 0;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <glm/gtc/matrix_transform.hpp>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -17,6 +18,7 @@
 #include "studio/scene/lights/sidecar.h"
 #include "studio/scene/profiles/luminaire.h"
 #include "studio/scene/profiles/profile_file.h"
+#include "studio/scene/wildcard.h"
 
 namespace penumbra::studio {
 namespace {
@@ -121,6 +123,16 @@ class NodeIndex {
                                      didYouMean(name, names)));
     }
 
+    /// Those of the name or, where none has just that, of the pattern (`*`, `?`); none may match one.
+    std::vector<int> matching(const std::string& pattern, int line) const {
+        if (byName_.contains(pattern) || pattern.find_first_of("*?") == std::string::npos)
+            return all(pattern, line);
+        std::vector<int> nodes;
+        for (const auto& [name, ofName] : byName_)
+            if (matchesWildcard(name, pattern)) nodes.insert(nodes.end(), ofName.begin(), ofName.end());
+        return nodes;
+    }
+
     int one(const std::string& name, int line) const {
         const std::vector<int>& nodes = all(name, line);
         if (nodes.size() > 1)
@@ -140,8 +152,24 @@ struct AttachedLight {
     Light light;
     glm::dmat4 parentFromLight{1};
     std::optional<int> node;
-    bool isInWorld = false;
+    bool isInWorld = false, isBelow = false;
 };
+
+/// From the middle of a node's underside, with the world's axes; nothing where it has no mesh.
+std::optional<glm::dmat4> worldFromUnderside(const Scene& scene, const SceneMoment& moment, int node) {
+    Bounds bounds;
+    for (const Instance& instance : moment.instances) {
+        if (instance.node != node) continue;
+        const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+        for (const glm::vec3& position : instance.positions.empty() ? mesh.positions : instance.positions) {
+            const glm::vec3 posWorld(instance.worldFromMesh * glm::vec4(position, 1));
+            bounds.include(posWorld);
+        }
+    }
+    if (bounds.empty()) return {};
+    const glm::dvec3 middle = bounds.center();
+    return glm::translate(glm::dmat4(1), glm::dvec3(middle.x, bounds.min.y, middle.z));
+}
 
 struct NodeFlags {
     std::optional<bool> casts, receives;
@@ -163,10 +191,7 @@ class SidecarMotion : public Scene::Motion {
         if (lights_) {
             moment.lights.clear();
             for (const AttachedLight& attached : *lights_) {
-                const glm::dmat4 worldFromParent = attached.node
-                                                       ? glm::dmat4(moment.worldFromNode[*attached.node])
-                                                   : attached.isInWorld ? glm::dmat4(1)
-                                                                        : scene.worldFromFile;
+                const glm::dmat4 worldFromParent = worldFromParentOf(attached, scene, moment);
                 Light light = attached.light;
                 glm::mat4 worldFromLight =
                     gltf::rigidPart(glm::mat4(worldFromParent * attached.parentFromLight));
@@ -180,6 +205,13 @@ class SidecarMotion : public Scene::Motion {
     }
 
   private:
+    static glm::dmat4 worldFromParentOf(const AttachedLight& attached, const Scene& scene,
+                                        const SceneMoment& moment) {
+        if (attached.isBelow) return worldFromUnderside(scene, moment, *attached.node).value();
+        if (attached.node) return moment.worldFromNode[std::size_t(*attached.node)];
+        return attached.isInWorld ? glm::dmat4(1) : scene.worldFromFile;
+    }
+
     std::shared_ptr<const Scene::Motion> inner_;
     std::optional<std::vector<AttachedLight>> lights_;
     std::map<int, NodeFlags> flags_;  ///< by node
@@ -195,8 +227,16 @@ Sidecar readSidecar(const fs::path& file) {
 void applySidecar(Scene& scene, const Sidecar& sidecar, const fs::path& folder) {
     const NodeIndex nodes(scene, sidecar.fileName);
     std::map<int, NodeFlags> flags;
-    for (const SidecarNode& node : sidecar.nodes)
-        for (const int index : nodes.all(node.name, node.line)) flags[index] = {node.casts, node.receives};
+    for (const SidecarNode& node : sidecar.nodes) {
+        const std::vector<int> matching = nodes.matching(node.name, node.line);
+        if (matching.empty())
+            scene.warnings.push_back(
+                fmt::format("{}:{}: no node is named '{}'", sidecar.fileName, node.line, node.name));
+        for (const int index : matching) {
+            if (node.casts) flags[index].casts = node.casts;
+            if (node.receives) flags[index].receives = node.receives;
+        }
+    }
 
     std::optional<std::vector<AttachedLight>> lights;
     if (sidecar.lights) {
@@ -204,11 +244,16 @@ void applySidecar(Scene& scene, const Sidecar& sidecar, const fs::path& folder) 
         TextureLoader textures(scene, folder);
         ProfileLoader profiles(scene, folder);
         for (const SidecarLight& read : *sidecar.lights) {
-            AttachedLight attached{read.light, read.parentFromLight, {}, read.isInWorld};
+            AttachedLight attached{read.light, read.parentFromLight, {}, read.isInWorld, read.isBelow};
             if (read.profile)
                 profiles.load(*read.profile, fmt::format("{}:{}", sidecar.fileName, read.profile->line),
                               attached.light);
             if (!read.node.empty()) attached.node = nodes.one(read.node, read.nodeLine);
+            if (read.isBelow && !worldFromUnderside(scene, scene.at(0), *attached.node))
+                throw InputError(
+                    fmt::format("{}:{}: the node '{}' has no mesh of its own to hang below; 'penumbra info "
+                                "--nodes' lists those that have",
+                                sidecar.fileName, read.nodeLine, read.node));
             if (!read.textureFile.empty())
                 attached.light.texture =
                     textures.load(read.textureFile, fmt::format("{}:{}", sidecar.fileName, read.textureLine));

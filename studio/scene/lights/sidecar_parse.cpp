@@ -6,13 +6,13 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
 #include <numbers>
 #include <set>
 #include <span>
 
 #include "studio/scene/lights/black_body.h"
 #include "studio/scene/lights/sidecar.h"
+#include "studio/scene/lights/sidecar_place.h"
 #include "studio/scene/lights/sidecar_reader.h"
 #include "studio/scene/profiles/profile_file.h"
 #include "studio/scene/sun/sun.h"
@@ -26,7 +26,8 @@ using Keys = std::span<const std::string_view>;
 
 constexpr std::array<std::string_view, 7> commonKeys{
     "name", "type", "exposure", "color", "enableColorTemperature", "colorTemperature", "shadow:enable"};
-constexpr std::array<std::string_view, 3> placeKeys{"node", "translation", "rotation"};
+constexpr std::array<std::string_view, 4> placeKeys{"node", "translation", "rotation", "aim"};
+constexpr std::array<std::string_view, 1> hangingKeys{"below"};
 constexpr std::array<std::string_view, 2> luminanceKeys{"intensity", "normalize"};
 constexpr std::array<std::string_view, 6> shapingKeys{"shaping:cone:angle",    "shaping:cone:softness",
                                                       "shaping:ies:file",      "shaping:ies:angleScale",
@@ -34,7 +35,7 @@ constexpr std::array<std::string_view, 6> shapingKeys{"shaping:cone:angle",    "
 constexpr std::array<std::string_view, 4> rectKeys{"width", "height", "texture:file", "twoSided"};
 constexpr std::array<std::string_view, 2> diskKeys{"radius", "twoSided"};
 constexpr std::array<std::string_view, 1> sphereKeys{"radius"};
-constexpr std::array<std::string_view, 1> distantKeys{"angle"};
+constexpr std::array<std::string_view, 3> distantKeys{"angle", "azimuth", "altitude"};
 constexpr std::array<std::string_view, 3> luminaireKeys{"file", "multiplier", "turn"};
 constexpr std::array<std::string_view, 6> sunKeys{"latitude", "longitude",  "time",
                                                   "north",    "refraction", "multiplier"};
@@ -48,15 +49,24 @@ struct LightType {
     std::string_view name;
     Source source;
     LightShape shape;
-    std::array<Keys, 4> keys;
+    std::array<Keys, 5> keys;
 };
 
 constexpr std::array<LightType, 6> lightTypes{{
-    {"RectLight", Source::shape, LightShape::rect, {placeKeys, luminanceKeys, shapingKeys, rectKeys}},
-    {"DiskLight", Source::shape, LightShape::disk, {placeKeys, luminanceKeys, shapingKeys, diskKeys}},
-    {"SphereLight", Source::shape, LightShape::sphere, {placeKeys, luminanceKeys, shapingKeys, sphereKeys}},
+    {"RectLight",
+     Source::shape,
+     LightShape::rect,
+     {placeKeys, luminanceKeys, shapingKeys, hangingKeys, rectKeys}},
+    {"DiskLight",
+     Source::shape,
+     LightShape::disk,
+     {placeKeys, luminanceKeys, shapingKeys, hangingKeys, diskKeys}},
+    {"SphereLight",
+     Source::shape,
+     LightShape::sphere,
+     {placeKeys, luminanceKeys, shapingKeys, hangingKeys, sphereKeys}},
     {"DistantLight", Source::shape, LightShape::distant, {placeKeys, luminanceKeys, distantKeys}},
-    {"LuminaireLight", Source::luminaire, LightShape::rect, {placeKeys, luminaireKeys}},
+    {"LuminaireLight", Source::luminaire, LightShape::rect, {placeKeys, hangingKeys, luminaireKeys}},
     {"SunLight", Source::sun, LightShape::distant, {sunKeys}},
 }};
 
@@ -71,23 +81,6 @@ const LightType& readType(const SidecarReader& reader, const LocatedJson& object
     if (found == lightTypes.end())
         reader.fail(type->line, fmt::format("unknown type '{}' of light{}", name, didYouMean(name, names)));
     return *found;
-}
-
-/// Rotation of the light's frame; a quaternion (x, y, z, w) of length 1, give or take what six digits leave.
-glm::mat4 readRotation(const SidecarReader& reader, const LocatedJson& value) {
-    const auto xyzw = reader.vector<4>(value, "'rotation'");
-    const float length = glm::length(xyzw);
-    if (!(std::abs(length - 1) <= 1e-3f))
-        reader.fail(
-            value.line,
-            fmt::format("'rotation' must be a quaternion [x, y, z, w] of length 1, not {:.4g}", length));
-    return glm::mat4_cast(glm::normalize(glm::quat(xyzw.w, xyzw.x, xyzw.y, xyzw.z)));
-}
-
-/// Metres, with all of their digits: scenes may lie far from the origin.
-glm::dvec3 readTranslation(const SidecarReader& reader, const LocatedJson& value) {
-    reader.vector<3>(value, "'translation'");
-    return {value.items[0].number, value.items[1].number, value.items[2].number};
 }
 
 /// The area by which UsdLux's `normalize` divides; of a distant light it is pi sin^2(angle/2), which turns
@@ -229,17 +222,6 @@ void readShape(const SidecarReader& reader, const LocatedJson& object, SidecarLi
     if (const LocatedJson* value = member(object, "texture:file")) {
         read.textureFile = reader.text(*value, "'texture:file'");
         read.textureLine = value->line;
-    }
-}
-
-void readPlace(const SidecarReader& reader, const LocatedJson& object, SidecarLight& read) {
-    if (const LocatedJson* value = member(object, "rotation"))
-        read.parentFromLight = readRotation(reader, *value);
-    if (const LocatedJson* value = member(object, "translation"))
-        read.parentFromLight[3] = glm::dvec4(readTranslation(reader, *value), 1);
-    if (const LocatedJson* value = member(object, "node")) {
-        read.node = reader.text(*value, "'node'");
-        read.nodeLine = value->line;
     }
 }
 

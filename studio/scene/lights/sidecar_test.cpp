@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/scene/lights/sidecar.h"
+#include "studio/scene/builtin/builtin.h"
 
 #include <gtest/gtest.h>
 
@@ -59,6 +60,53 @@ TEST(Sidecar, TheExampleOfTheManual) {
     EXPECT_EQ(sidecar.lights->at(1).node, "Lamp");
     EXPECT_FLOAT_EQ(sidecar.lights->at(1).light.shape.radius_m, 0.1f);
     EXPECT_FLOAT_EQ(sidecar.lights->at(2).light.shape.angle_rad, 0.53f * pi / 180);
+}
+
+glm::dvec3 wayOf(const SidecarLight& light) {
+    return -glm::dvec3(light.parentFromLight[2]);
+}
+
+SidecarLight sidecarLight(const std::string& body) {
+    return parseSidecar(R"({"version": 1, "lights": [{"name": "a", )" + body + "}]}", "chair.lights.json")
+        .lights->at(0);
+}
+
+TEST(Sidecar, LightsShineAtWhatTheyAimAt) {
+    const SidecarLight spot =
+        sidecarLight(R"("type": "DiskLight", "translation": [1, 4, 2], "aim": [4, 0, 2])");
+    EXPECT_NEAR(glm::distance(wayOf(spot), glm::dvec3(0.6, -0.8, 0)), 0, 1e-6);
+    EXPECT_NEAR(spot.parentFromLight[0].y, 0, 1e-6) << "X lies level";
+    EXPECT_EQ(glm::dvec3(spot.parentFromLight[3]), glm::dvec3(1, 4, 2));
+    const SidecarLight down =
+        sidecarLight(R"("type": "RectLight", "translation": [1, 4, 2], "aim": [1, 0, 2])");
+    EXPECT_NEAR(glm::distance(wayOf(down), glm::dvec3(0, -1, 0)), 0, 1e-6);
+}
+
+TEST(Sidecar, DistantLightsStandWhereAzimuthAndAltitudeSay) {
+    // From the east, 30 degrees high: it shines to the west and down.
+    const SidecarLight sun = sidecarLight(R"("type": "DistantLight", "azimuth": 90, "altitude": 30)");
+    EXPECT_NEAR(glm::distance(wayOf(sun), glm::dvec3(-std::sqrt(0.75), -0.5, 0)), 0, 1e-6);
+    EXPECT_TRUE(sun.isInWorld);
+    // The defaults are those of a light without rotation.
+    EXPECT_NEAR(glm::distance(wayOf(sidecarLight(R"("type": "DistantLight", "altitude": 0)")),
+                              wayOf(sidecarLight(R"("type": "DistantLight")"))),
+                0, 1e-6);
+}
+
+TEST(Sidecar, PlacesAreSaidOnce) {
+    const auto error = [](const std::string& body) {
+        return errorOf(R"({"version": 1, "lights": [{"name": "a", )" + body + "}]}");
+    };
+    EXPECT_EQ(error(R"("type": "RectLight", "rotation": [0, 0, 0, 1], "aim": [0, 1, 0])"),
+              "chair.lights.json:1: 'rotation' and 'aim' say the same: keep one of them");
+    EXPECT_EQ(error(R"("type": "DistantLight", "aim": [0, 1, 0], "altitude": 4)"),
+              "chair.lights.json:1: 'aim' and 'altitude' say the same: keep one of them");
+    EXPECT_EQ(error(R"("type": "RectLight", "node": "a", "below": "b")"),
+              "chair.lights.json:1: 'node' and 'below' say the same: keep one of them");
+    EXPECT_EQ(error(R"("type": "RectLight", "translation": [1, 2, 3], "aim": [1, 2, 3])"),
+              "chair.lights.json:1: 'aim' must be a point other than the light's own place");
+    EXPECT_NE(error(R"("type": "DistantLight", "below": "b")").find("unknown key 'below'"),
+              std::string::npos);
 }
 
 TEST(Sidecar, WhatIsWrittenReadsBackTheSame) {
@@ -214,7 +262,8 @@ TEST(Sidecar, ErrorsSayWhereAndWhatToDo) {
         {withLight("\"node\": \"\""), f + "4: 'node' must not be empty"},
         {withLight("\"node\": \"a\\u0007\""), f + "4: 'node' must not contain control characters"},
         {"{\"version\": 1, \"lights\": [\n{\"name\": \"a\"}]}",
-         f + "2: a light needs a 'type': one of RectLight, DiskLight, SphereLight, DistantLight, LuminaireLight, SunLight"},
+         f + "2: a light needs a 'type': one of RectLight, DiskLight, SphereLight, DistantLight, "
+             "LuminaireLight, SunLight"},
         {"{\"version\": 1, \"lights\": [\n{\"name\": \"a\",\n\"type\": \"Rectlight\"}]}",
          f + "3: unknown type 'Rectlight' of light; did you mean 'RectLight'?"},
         {"{\"version\": 1, \"lights\": [\n{\"name\": \"a\",\n\"type\": \"DomeLight\"}]}",
@@ -325,6 +374,39 @@ TEST(SidecarOnAScene, ReplacesTheLightsAndFollowsNodes) {
     EXPECT_EQ(worldFromLight[2], glm::vec4(1, 0, 0, 0));
     EXPECT_EQ(worldFromLight[1], glm::vec4(0, 1, 0, 0));
     EXPECT_EQ(worldFromLight[0], glm::vec4(0, 0, -1, 0)) << "right-handed, though the node mirrors";
+}
+
+TEST(SidecarOnAScene, LightsHangBelowNodes) {
+    Scene scene = makeBuiltin("two-boxes");
+    const SceneMoment before = scene.at(0);
+    const int node = before.instances.back().node;
+    applySidecar(
+        scene,
+        parseSidecar(R"({"version": 1, "lights": [{"name": "panel", "type": "RectLight", "below": ")" +
+                         scene.nodeNames[std::size_t(node)] + R"(", "translation": [0.1, -0.05, 0]}]})",
+                     "f"),
+        ".");
+    Bounds bounds;
+    for (const glm::vec3& position : scene.meshes[std::size_t(before.instances.back().mesh)].positions)
+        bounds.include(glm::vec3(before.instances.back().worldFromMesh * glm::vec4(position, 1)));
+    const glm::mat4 placed = std::bit_cast<glm::mat4>(scene.at(0).lights.at(0).shape.worldFromLight);
+    EXPECT_NEAR(placed[3].x, bounds.center().x + 0.1f, 1e-5f);
+    EXPECT_NEAR(placed[3].y, bounds.min.y - 0.05f, 1e-5f);
+    EXPECT_NEAR(placed[3].z, bounds.center().z, 1e-5f);
+    EXPECT_NEAR(placed[2].y, 1, 1e-6f) << "it shines down";
+}
+
+TEST(SidecarOnAScene, PatternsNameManyNodesAndNobodyIsTold) {
+    Scene scene = twoNodes();
+    applySidecar(
+        scene,
+        parseSidecar(R"({"version": 1, "nodes": {"*": {"casts": false}, "Ifc*": {"casts": true}}})", "f"),
+        ".");
+    const SceneMoment moment = scene.at(0);
+    EXPECT_FALSE(moment.instances[0].casts);
+    EXPECT_FALSE(moment.instances[1].casts);
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(scene.warnings[0], "f:1: no node is named 'Ifc*'");
 }
 
 TEST(SidecarOnAScene, WithoutLightsKeepsThemAndClassifiesNodes) {

@@ -106,7 +106,7 @@ Json write(const SidecarLight& written) {
         json["shaping:cone:angle"] = number(glm::degrees(outer_rad));
         json["shaping:cone:softness"] = number(outer_rad > 0 ? 1 - inner_rad / outer_rad : 0);
     }
-    if (!written.node.empty()) json["node"] = written.node;
+    if (!written.node.empty()) json[written.isBelow ? "below" : "node"] = written.node;
     for (int i = 0; i < 3; ++i) json["translation"].push_back(number(written.parentFromLight[3][i]));
     const glm::quat rotation = glm::normalize(glm::quat_cast(glm::mat3(written.parentFromLight)));
     json["rotation"] = list(glm::vec4(rotation.x, rotation.y, rotation.z, rotation.w));

@@ -143,23 +143,27 @@ void requireRisen(const SunPlace& place, const SunSetting& setting, const std::s
             altitude_deg, position.azimuth_deg));
 }
 
+glm::dmat4 worldFromDistantLight(double azimuth_deg, double altitude_deg) {
+    const double heading = azimuth_deg * radians, up = altitude_deg * radians;
+    const glm::dvec3 towards(std::cos(up) * std::sin(heading), std::sin(up),
+                             -std::cos(up) * std::cos(heading));
+    const glm::dvec3 x(std::cos(heading), 0, std::sin(heading));
+    const glm::dvec3 y = glm::cross(towards, x);
+    return {glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(towards, 0), glm::dvec4(0, 0, 0, 1)};
+}
+
 Light sunLight(const std::string& name, const SunPlace& place, const SunSetting& setting,
                const std::string& where) {
     requireRisen(place, setting, where);
     const SunPosition position = sunPosition(place);
     const double altitude_deg = seenAltitude_deg(position, setting);
-    // -Z turned by north_deg is north, +X turned by it is east.
-    const double heading = (position.azimuth_deg + setting.north_deg) * radians, up = altitude_deg * radians;
-    const glm::dvec3 towards(std::cos(up) * std::sin(heading), std::sin(up),
-                             -std::cos(up) * std::cos(heading));
-    const glm::dvec3 x(std::cos(heading), 0, std::sin(heading));
-    const glm::dvec3 y = glm::cross(towards, x);
     Light light;
     light.name = name;
     light.shape.shape = LightShape::distant;
     light.shape.angle_rad = float(position.diameter_deg * radians);
+    // -Z turned by north_deg is north, +X turned by it is east.
     light.shape.worldFromLight = std::bit_cast<Mat4>(
-        glm::mat4(glm::vec4(x, 0), glm::vec4(y, 0), glm::vec4(towards, 0), glm::vec4(0, 0, 0, 1)));
+        glm::mat4(worldFromDistantLight(position.azimuth_deg + setting.north_deg, altitude_deg)));
     light.emission.value =
         glm::vec3(radianceFromIlluminance_nits(float(position.illuminance_lux), light.shape.angle_rad));
     return light;

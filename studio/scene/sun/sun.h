@@ -49,6 +49,10 @@ struct SunSetting {
     bool refraction = true;
 };
 
+/// Where a distant light stands: degrees clockwise, seen from above, from -Z, and above the horizon. It
+/// shines the other way.
+glm::dmat4 worldFromDistantLight(double azimuth_deg, double altitude_deg);
+
 /// Throws InputError "WHERE: ..." where the sun is below the horizon.
 void requireRisen(const SunPlace& place, const SunSetting& setting, const std::string& where);
 

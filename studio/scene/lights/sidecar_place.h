@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a light of a sidecar is, and where it shines.
+#pragma once
+
+#include "studio/scene/lights/sidecar.h"
+#include "studio/scene/lights/sidecar_reader.h"
+
+namespace penumbra::studio {
+
+/// Reads `translation`, `rotation` or `aim`, `node` or `below`; of a distant light `azimuth` and `altitude`.
+void readPlace(const SidecarReader& reader, const LocatedJson& object, SidecarLight& read);
+
+}  // namespace penumbra::studio
