@@ -74,8 +74,7 @@ void addFileFlags(CLI::App& command, SceneArguments& arguments) {
         ->capture_default_str();
 }
 
-void addViewFlags(CLI::App& command, SceneArguments& arguments) {
-    command.add_option("--size", arguments.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+void addCameraFlags(CLI::App& command, SceneArguments& arguments) {
     command.add_option("--camera", arguments.camera, "a camera of the scene, by name or index");
     CLI::Option* from =
         command
@@ -97,6 +96,11 @@ void addViewFlags(CLI::App& command, SceneArguments& arguments) {
     command.add_option("--time", arguments.time_s, "moment of the animation, in seconds")
         ->check(finiteWithin(-infinity, infinity, "seconds"))
         ->capture_default_str();
+}
+
+void addViewFlags(CLI::App& command, SceneArguments& arguments) {
+    command.add_option("--size", arguments.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    addCameraFlags(command, arguments);
     command.add_option("--device", arguments.device, "index from 'penumbra list devices'");
 }
 
@@ -129,6 +133,10 @@ void SceneArguments::addSceneTo(CLI::App& command, bool required) {
 void SceneArguments::addTo(CLI::App& command) {
     addSceneTo(command);
     addViewFlags(command, *this);
+}
+
+void SceneArguments::addCameraTo(CLI::App& command) {
+    addCameraFlags(command, *this);
 }
 
 void SceneArguments::addFlagsTo(CLI::App& command) {

@@ -48,6 +48,8 @@ struct SceneArguments {
     void addFlagsTo(CLI::App& command);
     /// SCENE, --lights, --scene and --animation alone.
     void addSceneTo(CLI::App& command, bool required = true);
+    /// Camera and moment alone.
+    void addCameraTo(CLI::App& command);
 
     OpenOptions openOptions() const;
     /// Opens the scene and logs its warnings. Throws InputError.

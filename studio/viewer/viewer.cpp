@@ -55,9 +55,32 @@ Viewer::Viewer(ViewerOptions options)
     applySettings(settings_, session_);
     windowState_.showsWelcome = options_.scene.empty();
     session_.open(options_.scene.empty() ? welcomeScene : options_.scene, options_.open);
+    startAsAsked();
     history_.start(session_.work());
     if (!options_.scene.empty()) settings_.addRecent(options_.scene);
     window_.setTitle("Penumbra - " + session_.document().nameOrPath());
+}
+
+void Viewer::startAsAsked() {
+    if (!options_.technique.empty()) {
+        chooseTechnique(session_, options_.technique);
+        if (options_.technique != referenceName) {
+            Technique& technique = session_.techniques().get(options_.technique);
+            for (const auto& [key, value] : options_.parameters) setParameter(technique, key, value);
+        }
+    }
+    if (options_.time_s != 0) session_.setTime(options_.time_s);
+    if (!options_.camera) return;
+    const Document& document = session_.document();
+    const Camera wanted = options_.camera(document.scene(), document.moment());
+    const auto isWanted = [&](const Camera& camera) {
+        return camera.name == wanted.name && camera.worldFromCamera == wanted.worldFromCamera;
+    };
+    const std::vector<Camera>& cameras = document.moment().cameras;
+    const auto found = std::ranges::find_if(cameras, isWanted);
+    if (found != cameras.end()) return session_.useSceneCamera(int(found - cameras.begin()));
+    session_.freeCamera().startFrom(wanted, document.bounds());
+    session_.changedView();
 }
 
 Viewer::~Viewer() {

@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,11 @@ namespace penumbra::studio::viewer {
 struct ViewerOptions {
     std::string scene;  ///< as openScene takes it; empty: one that shows what this is about
     OpenOptions open;
+    std::string technique;       ///< of side A; empty: that of the settings
+    ParameterValues parameters;  ///< of that technique
+    double time_s = 0;
+    /// Where one looks from first; null: through the scene's first camera.
+    std::function<Camera(const Scene&, const SceneMoment&)> camera;
     std::filesystem::path shaderSourceDirectory;  ///< read shaders from this tree, and again when they change
     std::filesystem::path settings = settingsFile();
     bool keepsSettings = true;  ///< writes them when it ends
@@ -49,6 +55,8 @@ class Viewer {
     Image screenshot() { return window_.read(); }
 
   private:
+    /// What the options say of technique, moment and camera. Throws Error for parameters that there are not.
+    void startAsAsked();
     void takeFiles();
     /// Makes the light that is chosen the luminaire of this file.
     void loadProfile(const std::string& file);

@@ -94,6 +94,24 @@ TEST_F(ViewerTest, KeysChooseTechniques) {
     EXPECT_FALSE(viewer().windowState().showsHelp);
 }
 
+TEST_F(ViewerTest, StartsAsTheCommandAsks) {
+    ViewerOptions asked = options("moving");
+    asked.technique = "pcf";
+    asked.parameters = {{"map_size", "64"}};
+    asked.time_s = 0.5;
+    asked.camera = [](const Scene&, const SceneMoment&) {
+        return lookAtCamera({.eye = {1, 2, 3}, .target = {0, 0.5f, 0}});
+    };
+    viewer_ = std::make_unique<Viewer>(asked);
+    frames();
+    EXPECT_EQ(session().choices().technique, "pcf");
+    EXPECT_EQ(session().techniques().changes("pcf"), asked.parameters);
+    EXPECT_EQ(session().document().time_s(), 0.5);
+    EXPECT_NEAR(glm::distance(eyeOf(session()), {1, 2, 3}), 0, 1e-5f);
+    key("ctrl+z");  // how it began is no step
+    EXPECT_EQ(session().choices().technique, "pcf");
+}
+
 TEST_F(ViewerTest, ParametersHaveWidgetsAndAWayBack) {
     start("two-boxes", "pcf");
     const Image before = picture();
