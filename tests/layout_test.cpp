@@ -223,4 +223,42 @@ TEST(Layout, DocumentsNameTestsThatExist) {
     EXPECT_GT(mentioned, 100);
 }
 
+/// The lines between the marks `//! [name]` of a file, without the indentation that all of them have.
+std::string markedCode(const fs::path& file, const std::string& name) {
+    std::ifstream text(file);
+    std::vector<std::string> lines;
+    std::size_t indentation = std::string::npos;
+    bool within = false;
+    for (std::string line; std::getline(text, line);) {
+        if (line.find("//! [" + name + "]") != std::string::npos) {
+            within = !within;
+        } else if (within) {
+            if (!line.empty()) indentation = std::min(indentation, line.find_first_not_of(' '));
+            lines.push_back(line);
+        }
+    }
+    std::string code;
+    for (const std::string& line : lines) code += (line.empty() ? line : line.substr(indentation)) + "\n";
+    return code;
+}
+
+TEST(Manual, CodeIsThatOfTheExamples) {
+    // "<!-- examples/FILE: NAME -->", and the fenced code after it.
+    static const std::regex block("<!-- (examples/[^:]+): (\\w+) -->\n```cpp\n([^`]*)```");
+    int blocks = 0;
+    for (const auto& entry : fs::directory_iterator(root / "docs/manual")) {
+        std::ifstream file(entry.path());
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        EXPECT_EQ(text.find("@snippet"), std::string::npos)
+            << entry.path() << ": code that only Doxygen shows";
+        for (std::sregex_iterator match(text.begin(), text.end(), block), end; match != end; ++match) {
+            ++blocks;
+            EXPECT_EQ((*match)[3], markedCode(root / (*match)[1].str(), (*match)[2]))
+                << entry.path() << ": copy the lines between the marks [" << (*match)[2] << "] of "
+                << (*match)[1];
+        }
+    }
+    EXPECT_EQ(blocks, 8);
+}
+
 }  // namespace
