@@ -13,12 +13,19 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: .
 th, td { padding: .2em .8em; text-align: right; border-bottom: 1px solid #ddd; white-space: pre; }
 th:first-child, td:first-child { text-align: left; white-space: normal; }
 .row { display: grid; grid-template-columns: repeat(auto-fit, minmax(280px, 1fr)); gap: .6em; margin: .6em 0; }
+.thirds { grid-template-columns: repeat(3, 1fr); }
+.wipe { position: relative; width: 100%; user-select: none; }
+.wipe img { width: 100%; display: block; }
+.wipe img + img { position: absolute; inset: 0; clip-path: inset(0 0 0 var(--at, 50%)); }
+.wipe::after { content: ""; position: absolute; top: 0; bottom: 0; left: var(--at, 50%); width: 1px; background: #fff; }
+input[type=range] { width: 100%; }
 figure { margin: 0; break-inside: avoid; } figure img { width: 100%; max-width: 590px; display: block; }
 figcaption { font-size: 13px; color: #555; }
 .judgement { background: #eef3f8; border-left: 4px solid #4477aa; padding: .4em .8em; }
 .paper { color: #555; font-style: italic; }
 .missing { color: #a33; }
 @media print {
+  input, select { display: none; }
   body { font-size: 10.5px; margin: 0; padding: 0; max-width: none; background: #fff; }
   h2 { margin-top: 1.2em; break-after: avoid; } tr, p { break-inside: avoid; }
   th, td { padding: .1em .5em; } figcaption { font-size: 10px; }
