@@ -3,14 +3,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <ranges>
 #include <span>
 #include <string>
 #include <type_traits>
 
+struct XXH3_state_s;
+
 namespace penumbra::studio {
 
-/// 128 bits that name some content. Not cryptographic: it tells pictures apart, it withstands no attack.
+/// 128 bits that name some content (XXH3). Not cryptographic: it tells pictures apart, it withstands no attack.
 struct ContentHash {
     std::uint64_t high = 0, low = 0;
     bool operator==(const ContentHash&) const = default;
@@ -21,6 +24,7 @@ struct ContentHash {
 /// {3}.
 class ContentHasher {
   public:
+    ContentHasher();
     void addBytes(std::span<const std::byte> bytes);
 
     template <typename T>
@@ -36,9 +40,10 @@ class ContentHasher {
     ContentHash hash() const;
 
   private:
-    void mix(std::uint64_t word);
-
-    std::uint64_t a_ = 0x9E3779B97F4A7C15u, b_ = 0xD1B54A32D192ED03u;
+    struct Delete {
+        void operator()(XXH3_state_s* state) const;
+    };
+    std::unique_ptr<XXH3_state_s, Delete> state_;
 };
 
 }  // namespace penumbra::studio
