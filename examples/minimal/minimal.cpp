@@ -96,7 +96,7 @@ int main(int argc, char** argv) try {
 
     //! [device]
     penumbra::Device device;  // on the context that is current
-    const auto technique = penumbra::makeTechnique(device, argc > 2 ? argv[2] : "exact");
+    const auto technique = penumbra::makeTechnique(device, argc > 2 ? argv[2] : "auto");
     //! [device]
 
     //! [meshes]
