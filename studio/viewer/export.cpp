@@ -84,6 +84,7 @@ Metadata metadataOf(const Session& session, const std::string& command) {
     return {
         {"Software", "penumbra viewer"},
         {"penumbra:command", command},
+        {"penumbra:exposure_ev", fmt::format("{}", session.exposureValue())},
         {"penumbra:renderer", session.device().renderer()},
         {"penumbra:shown", shownName(choices.shown)},
         {"penumbra:sides", choices.comparing ? choices.technique + " | " + choices.other : choices.technique},
@@ -122,6 +123,8 @@ std::string renderCommand(Session& session, const fs::path& folder) {
                     ? " --animation=-1"
                     : fmt::format(" --animation {}", fmt::join(*options.animations, ","));
     if (document.time_s() != 0) line += fmt::format(" --time {}", document.time_s());
+    if (session.choices().exposureValue)
+        line += fmt::format(" --exposure={}", *session.choices().exposureValue);
     line += cameraFlags(session) + techniqueFlags(session);
     line += fmt::format(" --size {}x{} -o picture.png", session.width_px(), session.height_px());
     return line;

@@ -201,6 +201,7 @@ void Session::render(int width_px, int height_px) {
 }
 
 void Session::lightSides() {
+    frame_.setExposure(choices_.exposureValue);
     const std::vector<Light>& lights = document_->moment().lights;
     const bool judged = sideStale_[0] || (sideStale_[1] && showsOther());
     // B before A: what can be inspected is of A.

@@ -35,6 +35,7 @@ struct Choices {
     float largestLux = 0;          ///< end of the illuminance colours; 0: what the picture needed when fitted
     bool logarithmic = false, isolines = true;
     float resolutionScale = 1;
+    std::optional<float> exposureValue;  ///< see FrameRenderer::setExposure; none: automatic
     int sceneCamera = 0;  ///< of the moment's; -1: the free one
 };
 
@@ -124,6 +125,9 @@ class Session {
         largestIlluminance_lux_ = 0;
         changedCanvas();
     }
+
+    /// That pictures are shown with. Waits for the device.
+    float exposureValue() const { return frame_.readExposureValue(); }
 
     /// Why the picture is not what was asked for, or empty.
     const std::string& problem() const { return problem_; }

@@ -112,6 +112,23 @@ TEST_F(ViewerTest, StartsAsTheCommandAsks) {
     EXPECT_EQ(session().choices().technique, "pcf");
 }
 
+TEST_F(ViewerTest, ExposureIsHeld) {
+    start("two-boxes");
+    const Image before = picture();
+    clickWidget("automatic exposure", 0.1);
+    ASSERT_TRUE(session().choices().exposureValue);
+    EXPECT_LE(largestDifference(before, picture()), 1.01 / 255);
+    std::vector<Light> lights = session().document().moment().lights;
+    for (Light& light : lights) light.emission.value *= 0.25f;
+    session().editLights(lights);
+    frames();
+    EXPECT_GT(largestDifference(before, picture()), 0.2) << "a lamp of a quarter is darker";
+    clickWidget("automatic exposure", 0.1);
+    EXPECT_FALSE(session().choices().exposureValue);
+    // The light's rotation went through a quaternion: a pixel of the hard edge may differ.
+    EXPECT_LE(shareOfDifferent(before, picture(), 2.01 / 255), 0.005);
+}
+
 TEST_F(ViewerTest, ParametersHaveWidgetsAndAWayBack) {
     start("two-boxes", "pcf");
     const Image before = picture();

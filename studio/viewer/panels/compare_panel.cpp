@@ -58,6 +58,17 @@ void drawMetrics(Ui& ui, const Session& session) {
     ImGui::EndTable();
 }
 
+void drawExposure(Ui& ui, Session& session) {
+    std::optional<float>& value = session.choices().exposureValue;
+    bool isAutomatic = !value;
+    if (ui.checkbox("automatic exposure", isAutomatic)) {
+        value = isAutomatic ? std::nullopt : std::optional(session.exposureValue());
+        session.changedLighting();
+    }
+    ui.tip("Off: brightness stays as it is now, however lights and view change");
+    if (value && ui.slider("exposure (EV)", *value, -10, 20, "%.2f")) session.changedLighting();
+}
+
 }  // namespace
 
 void drawComparePanel(Ui& ui, Session& session) {
@@ -88,6 +99,7 @@ void drawColorsPanel(Ui& ui, Session& session) {
     radio("Visibility (V)", Shown::visibility);
     radio("Illuminance (I)", Shown::illuminance);
     ImGui::PushItemWidth(130 * ui.scale());
+    if (choices.shown == Shown::picture) drawExposure(ui, session);
     if (choices.shown == Shown::difference || choices.shown == Shown::error) {
         if (ui.slider("colours end at", choices.differenceRange, 0.005f, 1, "%.3f", true))
             session.changedCanvas();
