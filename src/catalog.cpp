@@ -84,7 +84,7 @@ std::unique_ptr<Technique> makeAutomatic(Device& device) {
 
 constexpr TechniqueInfo automatic = {
     "auto", "whatever keeps an error, or a time, at the least cost; the settings of the others follow"};
-constexpr float rampRmseOfAutomatic = 0.02f;
+constexpr float rampRmseOfAutomatic = defaultMaxError;
 
 constexpr auto infos = [] {
     std::array<TechniqueInfo, entries.size() + 1> result;
@@ -109,6 +109,18 @@ std::span<const Promise> promisesOf(std::string_view technique) {
     const auto found =
         std::ranges::find(entries, technique, [](const Entry& entry) { return entry.info.name; });
     return found == entries.end() ? std::span<const Promise>() : found->promises;
+}
+
+std::optional<Choice> choiceFor(double maxError, std::string_view technique) {
+    std::optional<Choice> cheapest;
+    for (const Entry& entry : entries) {
+        if (!technique.empty() && technique != entry.info.name) continue;
+        for (const Promise& promise : entry.promises) {
+            if (double(promise.penumbraRmse) > maxError) continue;
+            if (!cheapest || promise.cost < cheapest->promise.cost) cheapest = {entry.info.name, promise};
+        }
+    }
+    return cheapest;
 }
 
 std::unique_ptr<Technique> makeTechnique(Device& device, std::string_view name) {

@@ -433,6 +433,52 @@ TEST_F(CommandTest, WhatWasChosenIsTold) {
     EXPECT_FALSE(nlohmann::json::parse(named.out).at("lights").at(0).at("statistics").contains("chosen"));
 }
 
+TEST_F(CommandTest, InfoTellsWhatAutoTakesAndWhy) {
+    for (const std::string error : {"0.05", "0.005"}) {
+        const Outcome info = run("info many-lights --json --error " + error);
+        ASSERT_EQ(info.exitCode, 0) << info.err;
+        const Outcome rendered = run("render many-lights --size 32x24 --json --error " + error);
+        ASSERT_EQ(rendered.exitCode, 0) << rendered.err;
+        const auto lights = nlohmann::json::parse(info.out).at("lights");
+        ASSERT_EQ(lights.size(), 5u);
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            const auto chosen =
+                nlohmann::json::parse(rendered.out).at("lights").at(i).at("statistics").at("chosen");
+            EXPECT_EQ(lights.at(i).at("auto").at("technique"), chosen.at("technique"));
+            EXPECT_EQ(lights.at(i).at("auto").at("samples"), chosen.at("samples"));
+        }
+        const std::string table = run("info many-lights --error " + error).out;
+        EXPECT_NE(table.find("auto        moon: exact with samples = "), std::string::npos) << table;
+        EXPECT_NE(table.find("of what keeps " + error), std::string::npos) << table;
+    }
+    for (const char* error : {"0", "-1", "nan", "2", "0.00001"})
+        EXPECT_EQ(run(std::string("info many-lights --error=") + error).exitCode, 2) << error;
+}
+
+TEST_F(CommandTest, CompareTellsAskedPromisedChosenAndTrue) {
+    const std::string compare = "compare two-boxes --size 32x24 --samples 16 ";
+    const Outcome table = run(compare + "--error 0.03 -t auto");
+    ASSERT_EQ(table.exitCode, 0) << table.err;
+    EXPECT_NE(table.out.find("auto, key: exact with samples = "), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find("error asked 0.03, promised 0.0"), std::string::npos) << table.out;
+    const Outcome json = run(compare + "-t auto,hard --json");
+    ASSERT_EQ(json.exitCode, 0) << json.err;
+    const auto results = nlohmann::json::parse(json.out).at("results");
+    EXPECT_EQ(results.at(0).at("chosen").get<std::string>().find("exact with samples = "), 0u);
+    EXPECT_FALSE(results.at(1).contains("chosen"));
+}
+
+TEST_F(CommandTest, WithABudgetThePictureIsTheSteadyStates) {
+    // Far too little time: the error has given way when the picture is made, and both are told.
+    const Outcome outcome = run("compare two-boxes -t auto --size 32x24 --samples 16 --budget-ms 0.001");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("budget 0.001 ms, spent "), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("the budget gave way"), std::string::npos) << outcome.out;
+    const Outcome refused = run("render two-boxes --size 32x24 --json --error 0.00001 --budget-ms 0.001");
+    EXPECT_NE(refused.exitCode, 0) << "neither can be kept";
+    EXPECT_NE(refused.err.find("no technique promises less than"), std::string::npos) << refused.err;
+}
+
 TEST_F(CommandTest, OneLightsVisibilityIsChannelV) {
     ASSERT_EQ(run("render two-boxes -t hard --size 32x32 --visibility " + at("v.exr")).exitCode, 0);
     EXPECT_EQ(readExr(at("v.exr")).channels.front().name, "V");

@@ -14,31 +14,31 @@ namespace {
 /// The one that takes its settings from what is asked for.
 constexpr std::string_view automatic = "auto";
 
-const Promise& cheapestFor(double error, const std::string& technique) {
+Promise cheapestFor(double error, const std::string& technique) {
+    // Errors that promises name are floats.
+    if (const std::optional<Choice> choice = choiceFor(float(error), technique)) return choice->promise;
     const std::span<const Promise> promises = promisesOf(technique);
-    const Promise* cheapest = nullptr;
-    double smallest = 1;
-    for (const Promise& promise : promises) {
-        smallest = std::min(smallest, double(promise.penumbraRmse));
-        if (double(promise.penumbraRmse) > error) continue;
-        if (cheapest == nullptr || promise.cost < cheapest->cost) cheapest = &promise;
+    if (promises.empty()) {
+        throw UsageError(
+            fmt::format("--error: '{}' promises no error; '-t {}' takes what does", technique, automatic));
     }
-    if (cheapest != nullptr) return *cheapest;
     throw UsageError(
-        promises.empty()
-            ? fmt::format("--error: '{}' promises no error; '-t {}' takes what does", technique, automatic)
-            : fmt::format("--error {:g}: the smallest that '{}' can promise is {:g}", error, technique,
-                          smallest));
+        fmt::format("--error {:g}: the smallest that '{}' can promise is {:g}", error, technique,
+                    std::ranges::min_element(promises, {}, &Promise::penumbraRmse)->penumbraRmse));
 }
 
 }  // namespace
 
-void AskedFor::addTo(CLI::App& command) {
+void AskedFor::addErrorTo(CLI::App& command) {
     command.add_option("--error", error,
                        "the root mean square error of visibility in the penumbra to keep, at the least cost");
+}
+
+void AskedFor::addTo(CLI::App& command) {
+    addErrorTo(command);
     command.add_option(
         "--budget-ms", budget_ms,
-        "milliseconds of the device's time (software: of the process's) that a light may take");
+        "milliseconds of the device's time (software: of the process's) that a frame's lights may take");
 }
 
 std::vector<std::pair<std::string, std::string>> AskedFor::settingsOf(const std::string& technique) const {
@@ -58,7 +58,7 @@ std::vector<std::pair<std::string, std::string>> AskedFor::settingsOf(const std:
             automatic));
     }
     if (!error) return settings;
-    const Promise& promise = cheapestFor(*error, technique);
+    const Promise promise = cheapestFor(*error, technique);
     if (!promise.parameter.empty()) settings.emplace_back(promise.parameter, promise.value);
     return settings;
 }

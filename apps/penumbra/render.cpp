@@ -18,6 +18,7 @@
 #include "studio/image/image_io.h"
 #include "studio/workbench/progress.h"
 #include "studio/workbench/reference_technique.h"
+#include "studio/workbench/settle.h"
 
 namespace penumbra::studio {
 namespace {
@@ -284,10 +285,11 @@ class RenderCommand {
             arguments_.frames.empty() ? arguments_.scene.time_s : frame / arguments_.framesPerSecond;
         const SceneMoment moment = scene.at(time_s);
         const int factor = arguments_.antialias;
-        TechniqueResult result = workbench.run(
-            arguments_.technique, [&](const Light& light) -> Technique& { return techniques.of(light); },
-            moment, arguments_.scene.cameraIn(scene, moment),
-            {size.width_px * factor, size.height_px * factor});
+        const PictureSize drawn{size.width_px * factor, size.height_px * factor};
+        const auto techniqueOf = [&](const Light& light) -> Technique& { return techniques.of(light); };
+        const Camera& camera = arguments_.scene.cameraIn(scene, moment);
+        if (!std::exchange(isSettled_, true)) settle(workbench, techniqueOf, moment, camera, drawn);
+        TechniqueResult result = workbench.run(arguments_.technique, techniqueOf, moment, camera, drawn);
         downsample(result, factor);
         stateExposure(metadata_, result.exposureValue);
         if (!outputs.picture.empty()) writePicture(outputs.picture, result, metadata_);
@@ -310,6 +312,7 @@ class RenderCommand {
 
     const RenderArguments& arguments_;
     Metadata metadata_;
+    bool isSettled_ = false;  ///< an animation's later frames follow from the first
     nlohmann::ordered_json report_;
 };
 

@@ -2,6 +2,7 @@
 // What techniques promise, so that somebody who wants a certain error or a certain time need not know them.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -23,5 +24,18 @@ struct Promise {
 
 /// Those of the technique of that name; none where it makes no promise. Their storage is static.
 PENUMBRA_API std::span<const Promise> promisesOf(std::string_view technique);
+
+/// What `auto` keeps where nothing else is asked for.
+inline constexpr float defaultMaxError = 0.02f;
+
+/// A technique, with the one of its promises that it is taken for.
+struct Choice {
+    std::string_view technique;  ///< valid for ever
+    Promise promise;
+};
+
+/// What keeps an error at the least cost: what `auto` takes where no time is short. Only `technique` where
+/// one is named. Nothing where nobody promises so little.
+PENUMBRA_API std::optional<Choice> choiceFor(double maxError, std::string_view technique = {});
 
 }  // namespace penumbra

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <ctime>
 #include <limits>
+#include <numeric>
 #include <string>
 
 namespace penumbra {
 namespace {
-
-constexpr std::string_view passName = "auto/light";
 
 /// By error, without those that another one beats in both.
 std::vector<Automatic::Candidate> worthwhile(std::vector<Automatic::Candidate> all) {
@@ -58,8 +57,8 @@ void Automatic::describe(ParameterVisitor& visitor) {
     visitor.real(
         {.name = "budget_ms",
          .unit = "ms",
-         .help = "device time that a light may take in a steady state (process time where the driver "
-                 "renders in software); where it does not suffice, the error gives way"},
+         .help = "device time that a frame's lights may take together in a steady state (process time where "
+                 "the driver renders in software); where it does not suffice, the error gives way"},
         budget_ms_, {leastBudget_ms, std::numeric_limits<float>::infinity()});
 }
 
@@ -83,13 +82,22 @@ void Automatic::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
                                                   shortest(candidates_.front().promise.penumbraRmse) +
                                                   ", not " + shortest(maxError_));
     }
+    const bool hasBudget = budget_ms_ < std::numeric_limits<float>::infinity();
+    if (hasBudget && frames_.begins(inputs)) endFrame();
     keeper_.want(maxError_, budget_ms_);
     Technique& technique = take(keeper_.current());
-    if (budget_ms_ == std::numeric_limits<float>::infinity()) {
-        technique.render(inputs, out);
-    } else {
+    if (hasBudget) {
         measure(inputs, out, technique);
+    } else {
+        technique.render(inputs, out);
     }
+}
+
+/// All lights of a frame take the same step: each gets the time that it needs for the same error.
+void Automatic::endFrame() {
+    const double frame_ms = std::accumulate(lights_ms_.begin(), lights_ms_.end(), 0.0);
+    if (frame_ms > 0) keeper_.spent(frame_ms);
+    lights_ms_.clear();
 }
 
 void Automatic::measure(const ShadowInputs& inputs, VisibilityBuffer& out, Technique& technique) {
@@ -99,21 +107,16 @@ void Automatic::measure(const ShadowInputs& inputs, VisibilityBuffer& out, Techn
         const double start_ms = processTime_ms();
         technique.render(inputs, out);
         gl::finish();
-        keeper_.spent(processTime_ms() - start_ms);
+        lights_ms_.push_back(processTime_ms() - start_ms);
         return;
     }
+    while (timers_.size() < frames_.lights()) timers_.emplace_back();
+    gl::PassTimers& timer = timers_[frames_.lights() - 1];
     {
-        const auto pass = timers_.pass(passName);
+        const auto pass = timer.pass("auto/light");
         technique.render(inputs, out);
     }
-    keeper_.spent(passTime_ms());
-}
-
-double Automatic::passTime_ms() const {
-    for (const auto& [name, milliseconds] : timers_.latest()) {
-        if (name == passName) return milliseconds;
-    }
-    return 0;
+    lights_ms_.push_back(timer.latest().front().milliseconds);
 }
 
 void Automatic::inspect(InspectionVisitor& visitor) const {
@@ -132,6 +135,7 @@ Statistics Automatic::statistics() const {
         own.push_back({.name = "budget", .value = budget_ms_, .unit = "ms"});
         own.push_back({.name = "spent", .value = keeper_.measured_ms(), .unit = "ms"});
         own.push_back({.name = "error gave way to the budget", .value = double(*taken_ > keeper_.wanted())});
+        own.push_back({.name = "budget gave way", .value = double(keeper_.measured_ms() > budget_ms_)});
     }
     statistics.counts.insert(statistics.counts.begin(), own.begin(), own.end());
     statistics.chosen = {.technique = candidate.technique,

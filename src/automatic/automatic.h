@@ -3,6 +3,7 @@
 // techniques state what they promise (penumbra/promise.h), and nothing here knows any of them.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "penumbra/promise.h"
 #include "penumbra/technique.h"
 #include "src/automatic/budget_keeper.h"
+#include "src/automatic/frame_watch.h"
 #include "src/device/device_internals.h"
 #include "src/gl/pass_timers.h"
 
@@ -36,9 +38,9 @@ class Automatic final : public Technique {
     Technique& take(std::size_t step);
     Technique& technique(std::string_view name) const;  ///< one that was made
     void measure(const ShadowInputs& inputs, VisibilityBuffer& out, Technique& technique);
-    double passTime_ms() const;
+    void endFrame();
 
-    float maxError_ = 0.02f;
+    float maxError_ = defaultMaxError;
     float budget_ms_;
 
     Device& device_;
@@ -46,7 +48,11 @@ class Automatic final : public Technique {
     BudgetKeeper keeper_;
     std::vector<std::pair<std::string_view, std::unique_ptr<Technique>>> made_;
     std::optional<std::size_t> taken_;  ///< of the last render
-    gl::PassTimers timers_;
+
+    // Only with a budget.
+    FrameWatch frames_;
+    std::deque<gl::PassTimers> timers_;  ///< one for each light of a frame
+    std::vector<double> lights_ms_;      ///< of this frame, as far as one knows
 };
 
 }  // namespace penumbra

@@ -31,20 +31,23 @@ class BudgetKeeper {
     void spent(double milliseconds);
 
     /// A running mean of the current step's time, once it has settled; 0 before.
-    double measured_ms() const { return frames_ > framesToSettle ? mean_ms_ : 0; }
+    double measured_ms() const { return frames_ > framesUnknown() ? mean_ms_ : 0; }
 
     static constexpr int framesToSettle = 5;  ///< times that lag behind the frame are another step's
-    static constexpr int framesToStart = 8;   ///< after which the first change may come
+    static constexpr int framesToStart =
+        4;  ///< after which the first change may come; drivers compile in two
     static constexpr int framesBetweenChanges = 30;
 
   private:
     void change(std::size_t step);
-    double predicted_ms(std::size_t step) const;
+    int framesUnknown() const { return hasChanged_ ? framesToSettle : framesToStart - 2; }
+    double high_ms(std::size_t step) const;
+    std::size_t best(bool isSteady) const;
 
     std::vector<Step> steps_;
     double budget_ms_;
     std::size_t wanted_ = 0, current_ = 0, previous_ = 0;
-    double mean_ms_ = 0, previousMean_ms_ = 0;
+    double mean_ms_ = 0, deviation_ms_ = 0, previousMean_ms_ = 0;
     int frames_ = 0;  ///< since the last change
     bool hasChanged_ = false;
 };

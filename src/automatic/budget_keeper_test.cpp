@@ -55,6 +55,24 @@ TEST(BudgetKeeper, KeepsTheBudgetFromTheThirtiethFrameOn) {
     }
 }
 
+TEST(BudgetKeeper, KeepsItThoughFramesDifferAndExpectationsAreWrong) {
+    // Frames are up to 12 % off, by a fixed pattern; the second step is dearer than one thinks beforehand.
+    const auto time_ms = [](std::size_t step, int frame) {
+        return std::array{9.0, 4.0, 3.4, 1.0}[step] * (1 + 0.01 * ((frame * 7) % 25 - 12));
+    };
+    for (const double budget_ms : {1.2, 2.5, 3.5, 4.1, 5.0, 9.2}) {
+        BudgetKeeper k = keeper();
+        k.want(0.005, budget_ms);
+        int kept = 0;
+        for (int i = 0; i < 130; ++i) {
+            const double spent_ms = time_ms(k.current(), i);
+            kept += i >= 30 && spent_ms <= budget_ms;
+            k.spent(spent_ms);
+        }
+        EXPECT_GE(kept, 95) << budget_ms;
+    }
+}
+
 TEST(BudgetKeeper, TakesTheBestThatFits) {
     BudgetKeeper k = keeper();
     k.want(0.005, 5.0);
@@ -70,6 +88,15 @@ TEST(BudgetKeeper, RecoversWhereThereIsRoom) {
     EXPECT_EQ(k.current(), 3u);
     run(k, 200, [](std::size_t step) { return std::array{0.9, 0.4, 0.2, 0.1}[step]; });
     EXPECT_EQ(k.current(), 0u);
+}
+
+TEST(BudgetKeeper, LeavesACheapStepThatIsNot) {
+    // The last step is the dearest one where it is taken.
+    BudgetKeeper k = keeper();
+    k.want(0.005, 1.5);
+    const auto time_ms = [](std::size_t step) { return std::array{9.0, 7.0, 1.0, 20.0}[step]; };
+    EXPECT_LE(run(k, 300, time_ms), 2);
+    EXPECT_EQ(k.current(), 2u);
 }
 
 TEST(BudgetKeeper, DoesNotSwingWhereExpectationsAreWrong) {

@@ -12,6 +12,7 @@
 #include "studio/metrics/flicker.h"
 #include "studio/metrics/flip.h"
 #include "studio/workbench/reference_technique.h"
+#include "studio/workbench/settle.h"
 
 namespace penumbra::studio {
 namespace {
@@ -57,6 +58,7 @@ TechniqueComparison compareOne(const TechniqueResult& truth, TechniqueResult&& r
         for (const Statistic& count : light.statistics.counts) {
             judged.counts.emplace_back(count.name, count.value);
         }
+        judged.chosen = describe(light.statistics.chosen);
         judged.visibility = std::move(light.visibility);
         if (judged.metrics.notFinite > 0) {
             throw std::runtime_error(
@@ -66,6 +68,14 @@ TechniqueComparison compareOne(const TechniqueResult& truth, TechniqueResult&& r
         }
     }
     return comparison;
+}
+
+std::unique_ptr<Technique> makeSettled(Workbench& workbench, const Contender& contender,
+                                       const SceneMoment& moment, const Camera& camera, PictureSize size) {
+    std::unique_ptr<Technique> technique = makeTechnique(workbench, contender);
+    settle(
+        workbench, [&](const Light&) -> Technique& { return *technique; }, moment, camera, size);
+    return technique;
 }
 
 /// More than contact shadows that coarse maps lose.
@@ -96,7 +106,8 @@ void measureFlicker(Workbench& workbench, const Scene& scene, const SceneMoment&
                     PictureSize size, std::span<const Contender> contenders, const JudgeOptions& options,
                     ReferenceTechnique& reference, Comparison& comparison) {
     std::vector<std::unique_ptr<Technique>> techniques;
-    for (const Contender& contender : contenders) techniques.push_back(makeTechnique(workbench, contender));
+    for (const Contender& contender : contenders)
+        techniques.push_back(makeSettled(workbench, contender, moment, camera, size));
     std::vector<std::vector<FlickerMeter>> meters(contenders.size(),
                                                   std::vector<FlickerMeter>(moment.lights.size()));
     for (int frame = 0; frame < flickerFrames; ++frame) {
@@ -172,7 +183,7 @@ Comparison judge(Workbench& workbench, const Scene& scene, const SceneMoment& mo
                           .reference = summarize(truth, options.samples)};
     for (const Contender& contender : contenders) {
         options.progress(double(comparison.techniques.size()) / double(contenders.size()), "techniques");
-        const std::unique_ptr<Technique> technique = makeTechnique(workbench, contender);
+        const std::unique_ptr<Technique> technique = makeSettled(workbench, contender, moment, camera, size);
         comparison.techniques.push_back(compareOne(
             truth, workbench.run(contender.label, *technique, moment, camera, size, options.timedRuns)));
         options.inspect(contender, *technique);

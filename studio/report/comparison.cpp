@@ -42,6 +42,28 @@ std::string csvField(const std::string& text) {
     return quoted + "\"";
 }
 
+/// What was asked and promised of a light whose technique takes others, and what it truly was; empty for
+/// others.
+std::string promiseLine(const std::string& technique, const LightComparison& light) {
+    if (light.chosen.empty()) return {};
+    const auto count = [&](std::string_view name) {
+        const auto found = std::ranges::find(light.counts, name, &std::pair<std::string, double>::first);
+        return found == light.counts.end() ? std::optional<double>() : found->second;
+    };
+    std::string line = fmt::format("{}, {}: {}", technique, light.light, light.chosen);
+    line +=
+        fmt::format("; error asked {:g}, promised {:g}, truly {:.4f}", count("error asked for").value_or(0),
+                    count("error promised").value_or(0), light.metrics.penumbra_rmse);
+    if (const auto bound = count("mean error bound"))
+        line += fmt::format(", bound of a pixel {:.3f}", *bound);
+    if (const auto budget_ms = count("budget")) {
+        line += fmt::format("; budget {:g} ms, spent {:.2f} ms", *budget_ms, count("spent").value_or(0));
+        if (count("error gave way to the budget").value_or(0) > 0) line += ", the error gave way";
+        if (count("budget gave way").value_or(0) > 0) line += ", the budget gave way";
+    }
+    return line + "\n";
+}
+
 }  // namespace
 
 std::string fileStem(const std::string& technique) {
@@ -97,6 +119,7 @@ nlohmann::ordered_json toJson(const Comparison& comparison) {
                                              {"flip", technique.flip},
                                              {"ms", spreadOf(light.milliseconds)},
                                              {"counts", std::move(counts)}};
+            if (!light.chosen.empty()) result["chosen"] = light.chosen;
             if (light.flicker) {
                 result["flicker"] = light.flicker->rms;
                 result["popping"] = light.flicker->popping;
@@ -119,6 +142,10 @@ std::string toTable(const Comparison& comparison) {
                 technique.technique, light.light, m.rmse, m.penumbra_rmse, m.p99, m.max, 100 * m.leak,
                 100 * m.false_shadow, technique.flip, medianOf(light.milliseconds));
         }
+    }
+    for (const TechniqueComparison& technique : comparison.techniques) {
+        for (const LightComparison& light : technique.lights)
+            table += promiseLine(technique.technique, light);
     }
     table += fmt::format("reference: {} rays a pixel, noise {:.4f} rms, {:.2f} million rays/s\n",
                          comparison.reference.samples, comparison.reference.noise_rms,

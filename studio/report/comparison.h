@@ -22,6 +22,7 @@ struct LightComparison {
     VisibilityMetrics metrics;
     std::vector<double> milliseconds;  ///< of each timed render
     std::vector<std::pair<std::string, double>> counts;
+    std::string chosen;  ///< by a technique that takes others, with the setting: "exact with samples = 144"
     std::optional<FlickerMetrics> flicker;  ///< where it was measured
     Image visibility;                       ///< 1 or 3 channels
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "studio/viewer/panels/panels.h"
+#include "studio/workbench/settle.h"
 
 namespace penumbra::studio::viewer {
 namespace {
@@ -26,6 +27,8 @@ void drawPasses(const Session& session) {
                                light.light.c_str(), light.technique.c_str())) {
             continue;
         }
+        if (const std::string chosen = describe(statistics.chosen); !chosen.empty())
+            ImGui::TextUnformatted(("takes " + chosen).c_str());
         double total_ms = 0;
         for (const PassTime& pass : statistics.passes) total_ms += pass.milliseconds;
         for (const PassTime& pass : statistics.passes) {
