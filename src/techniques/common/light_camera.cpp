@@ -219,40 +219,18 @@ LightCamera steadied(LightCamera camera, int mapSize_px) {
 /// first; one for all where its texels are no larger than the smallest pixel.
 LightCameras splitByPixelSize(const LightCamera& whole, const LightSpaceScene& scene,
                               const LightCameraOptions& options) {
+    constexpr int mostParts = 6;
     LightCameras cameras;
-    double smallest = std::numeric_limits<double>::infinity(), largest = 0;
-    for (const Polygon& polygon : scene.receivers.polygons) {
-        for (const glm::dvec3& p : polygon) {
-            const double pixel_m = glm::dot(scene.pixelSize_m, glm::dvec4(p, 1));
-            smallest = std::min(smallest, pixel_m);
-            largest = std::max(largest, pixel_m);
-        }
-    }
     const glm::dvec2 extent = whole.windowMax - whole.windowMin;
     const double texel_m = std::max(extent.x, extent.y) / options.mapSize_px;
-    // Pixels of a part differ by a factor of 2 at least; the last part takes whatever is nearer.
-    constexpr int mostParts = 6;
-    constexpr double leastRatio = 2;
-    smallest = std::max(smallest, largest * std::pow(leastRatio, -mostParts));
-    const int parts =
-        texel_m <= smallest
-            ? 1
-            : std::max(1, int(std::ceil(std::log(largest / smallest) / std::log(leastRatio) - 1e-9)));
-    if (parts == 1) {
+    const std::pmr::vector<Polygons> parts = partsByPixelSize(scene, texel_m, mostParts);
+    if (parts.size() == 1) {
         cameras.push_back(whole);
         return cameras;
     }
-    const double ratio = std::pow(largest / smallest, 1.0 / parts);
-    double from_m = 0;
-    for (int part = 1; part <= parts; ++part) {
-        const double to_m = part == parts ? 2 * largest : smallest * std::pow(ratio, part);
-        const std::array<Plane, 2> planes = {scene.pixelSize_m - Plane(0, 0, 0, from_m),
-                                             Plane(0, 0, 0, to_m) - scene.pixelSize_m};
-        Polygons inPart(gl::ObjectRegistryScope::frameMemory());
-        clip(scene.receivers.polygons, planes, inPart);
-        if (auto fitted = fitWindow(whole, inPart, options))
+    for (const Polygons& part : parts) {
+        if (auto fitted = fitWindow(whole, part, options))
             cameras.push_back(steadied(*fitted, options.mapSize_px));
-        from_m = to_m;
     }
     return cameras;
 }
@@ -265,6 +243,40 @@ glm::dvec3 onGrid(const glm::dvec3& direction) {
 }
 
 }  // namespace
+
+std::pmr::vector<Polygons> partsByPixelSize(const LightSpaceScene& scene, double texel_m, int mostParts) {
+    std::pmr::vector<Polygons> parts(gl::ObjectRegistryScope::frameMemory());
+    double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+    for (const Polygon& polygon : scene.receivers.polygons) {
+        for (const glm::dvec3& p : polygon) {
+            const double pixel_m = glm::dot(scene.pixelSize_m, glm::dvec4(p, 1));
+            smallest = std::min(smallest, pixel_m);
+            largest = std::max(largest, pixel_m);
+        }
+    }
+    constexpr double leastRatio = 2;
+    smallest = std::max(smallest, largest * std::pow(leastRatio, -mostParts));
+    const int count =
+        texel_m <= smallest
+            ? 1
+            : std::max(1, int(std::ceil(std::log(largest / smallest) / std::log(leastRatio) - 1e-9)));
+    if (count == 1) {
+        parts.push_back(scene.receivers.polygons);
+        return parts;
+    }
+    const double ratio = std::pow(largest / smallest, 1.0 / count);
+    double from_m = 0;
+    for (int part = 1; part <= count; ++part) {
+        const double to_m = part == count ? 2 * largest : smallest * std::pow(ratio, part);
+        const std::array<Plane, 2> planes = {scene.pixelSize_m - Plane(0, 0, 0, from_m),
+                                             Plane(0, 0, 0, to_m) - scene.pixelSize_m};
+        Polygons inPart(gl::ObjectRegistryScope::frameMemory());
+        clip(scene.receivers.polygons, planes, inPart);
+        if (!inPart.empty()) parts.push_back(std::move(inPart));
+        from_m = to_m;
+    }
+    return parts;
+}
 
 // M. Badoiu and K. Clarkson, Smaller core-sets for balls, 2003: step towards the farthest.
 glm::dvec3 coneAxis(std::span<const glm::dvec3> directions) {

@@ -44,6 +44,12 @@ struct LightSpaceScene {
 /// Computes the above. `lightFromWorld` as from view_constants.h.
 LightSpaceScene makeLightSpaceScene(const ShadowInputs& inputs, const glm::dmat4& lightFromWorld);
 
+/// The receivers in parts whose pixels differ in size by a factor of 2 at least, the smallest pixels first;
+/// the first part takes whatever has smaller pixels than `mostParts` tell apart. One part where texels of
+/// `texel_m` are no larger than the smallest pixel.
+std::pmr::vector<ReceiverRegion::Polygons> partsByPixelSize(const LightSpaceScene& scene, double texel_m,
+                                                            int mostParts);
+
 /// The axis of the narrowest cone around unit vectors, nearly. There must be at least one.
 glm::dvec3 coneAxis(std::span<const glm::dvec3> directions);
 

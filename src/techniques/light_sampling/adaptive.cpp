@@ -42,6 +42,13 @@ constexpr int tapsForError = 16;
 constexpr float errorOfUnknownCell = 0.289f;
 constexpr float errorOfSmoothedCell = 0.042f;
 
+/// Of a tree whose every quad is split once.
+constexpr int leastSamples = 9;
+constexpr int leastSlots = 2 * leastSamples;  ///< with those of the last frame
+
+/// Steps of an eighth, of which the error of a ramp is 0.04.
+constexpr int depthWithoutFilter = 3;
+
 constexpr int cellsPerSide = 34;  // see lattice_weights.comp.glsl
 
 }  // namespace
@@ -114,6 +121,25 @@ void AdaptiveLightSampling::chooseSamples(const LightSurface& surface) {
     }
 }
 
+SubdivisionOptions AdaptiveLightSampling::treeOptionsFor(const AreaLight& light, int mapSize_px) const {
+    SubdivisionOptions options = options_;
+    // The square's rim is the far side of a sphere, where its corners fall together: they have nothing to
+    // compare.
+    if (light.shape == LightShape::sphere) options.minDepth = std::max(2, options.minDepth);
+    // Under the sun more and finer maps than were asked for are paid for with samples, so that all maps stay.
+    if (light.shape == LightShape::distant) {
+        const double sample_bytes =
+            SampleMaps::texel_bytes * mapSize_px * mapSize_px * std::max(1, cameras_.faces);
+        const int room = int(SampleMaps::memory_bytes / sample_bytes);
+        if (room < options.mostSlotsInAll())
+            options.maxSamples = std::min(options.maxSamples, std::max(leastSamples, room / 2));
+    }
+    // Where nothing filters between samples, more of them have to do: the test passes bands of three pixels.
+    if (smooths_ && usesBits() && cameras_.isCube)
+        options.minDepth = std::max(depthWithoutFilter, options.minDepth);
+    return options;
+}
+
 void AdaptiveLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const Frame frame{inputs, lightFromWorld(inputs), out};
 
@@ -133,10 +159,12 @@ void AdaptiveLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer&
         const LightSpaceScene scene = makeLightSpaceScene(inputs, frame.lightFromWorld);
         const LightSurface surface(inputs.light, scene);
         chooseSamples(surface);
-        const int mapSize_px = mapSizeFor(surface, mapSize_px_);
-        cameras_.fit(inputs.light, surface, samples_, scene, mapSize_px);
+        const int mapSize_px =
+            cameras_.fitMaps(inputs.light, surface, samples_, scene, mapSize_px_,
+                             SampleMaps::memory_bytes / (leastSlots * SampleMaps::texel_bytes));
+        treeOptions_ = treeOptionsFor(inputs.light, mapSize_px);
         maps_.prepare(inputs.casters, scene, samples_, cameras_, mapSize_px,
-                      isCenterAlone_ ? 1 : options_.mostSlotsInAll());
+                      isCenterAlone_ ? 1 : treeOptions_.mostSlotsInAll());
     }
     maps_.keep(inputs.casters);
     view_.fill(inputs.view, frame.lightFromWorld);
@@ -186,12 +214,7 @@ void AdaptiveLightSampling::subdivide(const Frame& frame) {
         return std::max(1, int(std::lround(double(comparisonScale_) * size_px)));
     };
     subdivision_.prepare(scaled(frame.out.width_px()), scaled(frame.out.height_px()));
-    // The square's rim is the far side of a sphere, where its corners fall together: they have nothing to
-    // compare.
-    treeOptions_ = options_;
     treeOptions_.cellError = taps() > 0 ? errorOfSmoothedCell : errorOfUnknownCell;
-    if (frame.inputs.light.shape == LightShape::sphere)
-        treeOptions_.minDepth = std::max(2, options_.minDepth);
     findReceivers(frame);
     if (wasStatic_) {
         // Nothing changes, but the maps are asked again, in case the host's depth has, and drawn again if so.
@@ -256,9 +279,9 @@ void AdaptiveLightSampling::evaluate(const Frame& frame) {
     }
     const bool isResident = maps_.isResident();
     if (isResident) drawMaps(wasStatic_ ? stageOfAll : stageOfDeepest, 0, lastMapsPass, ofDeepest);
-    for (int batch = 0; batch < maps_.batches(options_.maxSamples); ++batch) {
+    for (int batch = 0; batch < maps_.batches(treeOptions_.maxSamples); ++batch) {
         if (!isResident) drawMaps(stageOfAll, batch, lastMapsPass, ofDeepest);
-        evaluateBatch(frame, stageOfAll, batch, options_.maxSamples);
+        evaluateBatch(frame, stageOfAll, batch, treeOptions_.maxSamples);
     }
 }
 

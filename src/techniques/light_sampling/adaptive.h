@@ -35,6 +35,7 @@ class AdaptiveLightSampling final : public Technique {
 
     bool usesBits() const;
     int taps() const;
+    SubdivisionOptions treeOptionsFor(const AreaLight& light, int mapSize_px) const;
     void chooseSamples(const LightSurface& surface);
     void renderCenterAlone(const Frame& frame);
     void subdivide(const Frame& frame);

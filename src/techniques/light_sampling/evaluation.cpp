@@ -107,8 +107,4 @@ void RadianceWeights::weigh(GLuint radianceTexture, std::span<const glm::vec4> c
         .dispatch((cells.size() + 63) / 64);
 }
 
-int mapSizeFor(const LightSurface& surface, int mapSize_px) {
-    return surface.isPoint() ? std::min(4 * mapSize_px, 16384) : mapSize_px;
-}
-
 }  // namespace penumbra::light_sampling

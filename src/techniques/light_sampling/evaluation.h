@@ -97,7 +97,4 @@ class RadianceWeights {
     gl::StorageArray<glm::vec4> cells_;
 };
 
-/// A single map has the memory of many: a light without size gets one of four times the side, as `hard` has.
-int mapSizeFor(const LightSurface& surface, int mapSize_px);
-
 }  // namespace penumbra::light_sampling

@@ -100,6 +100,7 @@ void addTile(ReceiverTile tile, SampleCamera camera, bool isOrthographic) {
     // Two texels make up for rounding and for kernels of three.
     float slack = 2.0 / float(needs.mapSize_px);
     vec2 uvMin = (from - windowMin) * camera.tap.window.perExtent - slack, uvMax = (to - windowMin) * camera.tap.window.perExtent + slack;
+    if (any(lessThan(uvMax, vec2(0.0))) || any(greaterThan(uvMin, vec2(1.0)))) return;
     ivec2 first = ivec2(floor(clamp(uvMin, 0.0, 1.0) * float(maskSide)));
     ivec2 last = min(ivec2(floor(clamp(uvMax, 0.0, 1.0) * float(maskSide))), maskSide - 1);
     uint depth = orderedBits(high.z);

@@ -6,6 +6,8 @@
 #include <glm/gtc/matrix_access.hpp>
 #include <limits>
 
+#include "src/techniques/light_sampling/subdivision_io.h"
+
 namespace penumbra::light_sampling {
 namespace {
 
@@ -62,7 +64,41 @@ bool isEmptyFace(const glm::dmat3& faceFromLight, std::span<const glm::dvec3> bo
     });
 }
 
+/// Under the sun; each takes its share of the memory.
+constexpr int mostParts = 4;
+
+double widthOf(std::span<const glm::dvec3> points) {
+    glm::dvec2 low(infinity), high(-infinity);
+    for (const glm::dvec3& p : points) {
+        low = glm::min(low, glm::dvec2(p));
+        high = glm::max(high, glm::dvec2(p));
+    }
+    return std::max(high.x - low.x, high.y - low.y);
+}
+
 }  // namespace
+
+int SampleCameras::fitMaps(const AreaLight& light, const LightSurface& surface,
+                           std::span<const LightSample> samples, const LightSpaceScene& scene, int mapSize_px,
+                           double memory_texels) {
+    // A single map has the memory of many: a light without size gets one as fine as `hard` has.
+    constexpr int mostTimes = 4, largest_px = 16384;
+    int size_px = surface.isPoint() ? mostTimes * mapSize_px : mapSize_px;
+    fit(light, surface, samples, scene, std::min(size_px, largest_px));
+    if (light.shape == LightShape::distant && !surface.isPoint()) {
+        // Of blockers an eighth of the map's width away the shadows of samples that are neighbours in the
+        // lattice lie a texel apart under a sun of this angle. Under a narrower one they fall together: fewer
+        // samples, and finer maps of as many texels in all, see more.
+        const double even_rad = double(latticeSide) * 8 / mapSize_px;
+        const double finer = std::sqrt(even_rad / double(light.angle_rad) / std::max(1, faces));
+        const double room_px = std::sqrt(memory_texels / std::max(1, faces));
+        size_px =
+            int(std::clamp(finer, 1.0, std::max(1.0, std::min(room_px / mapSize_px, double(mostTimes)))) *
+                mapSize_px);
+        if (size_px > mapSize_px) fit(light, surface, samples, scene, std::min(size_px, largest_px));
+    }
+    return std::min(size_px, largest_px);
+}
 
 void SampleCameras::fit(const AreaLight& light, const LightSurface& surface,
                         std::span<const LightSample> samples, const LightSpaceScene& scene, int mapSize_px) {
@@ -86,7 +122,6 @@ void SampleCameras::fit(const AreaLight& light, const LightSurface& surface,
     for (const glm::dvec3& q : bounds) farthest = std::max(farthest, glm::length(q));
 
     if (orthographic) {
-        faces = 1;
         faceFromLight[0] = lookAlong({0, 0, -1});
         near_m = infinity;
         far_m = -infinity;
@@ -134,15 +169,15 @@ void SampleCameras::fit(const AreaLight& light, const LightSurface& surface,
         }
         return;
     }
-    receivers_.clear();
-    for (const Polygon& polygon : polygons) {
-        for (const glm::dvec3& p : polygon) receivers_.push_back(faceFromLight[0] * p);
+    if (orthographic) {
+        takeReceivers(0, polygons);
+        const double texel_m = widthOf(receivers_[0]) / mapSize_px;
+        faces = 0;
+        for (const ReceiverRegion::Polygons& part : partsByPixelSize(scene, texel_m, mostParts))
+            takeReceivers(faces++, part);
+    } else {
+        takeReceivers(0, polygons);
     }
-    // Pieces share most of their corners.
-    std::ranges::sort(receivers_, [](const auto& a, const auto& b) {
-        return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-    });
-    receivers_.erase(std::unique(receivers_.begin(), receivers_.end()), receivers_.end());
     fitWindows(samples, mapSize_px);
     nearestBlocker_m = near_m;
     if (orthographic) return;
@@ -156,32 +191,49 @@ void SampleCameras::fit(const AreaLight& light, const LightSurface& surface,
     nearestBlocker_m = std::max(0.0, nearest - foremost);
 }
 
+void SampleCameras::takeReceivers(int part, std::span<const Polygon> polygons) {
+    std::vector<glm::dvec3>& receivers = receivers_[std::size_t(part)];
+    receivers.clear();
+    for (const Polygon& polygon : polygons) {
+        for (const glm::dvec3& p : polygon) receivers.push_back(faceFromLight[0] * p);
+    }
+    // Pieces share most of their corners.
+    std::ranges::sort(receivers, [](const auto& a, const auto& b) {
+        return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+    });
+    receivers.erase(std::unique(receivers.begin(), receivers.end()), receivers.end());
+}
+
 void SampleCameras::fitWindows(std::span<const LightSample> samples, int mapSize_px) {
     for (const LightSample& sample : samples) {
-        const glm::dvec3 place = faceFromLight[0] * glm::dvec3(sample.place);
-        const glm::dvec2 slopes = slopesOf(place);
-        glm::dvec2 low(infinity), high(-infinity);
-        for (const glm::dvec3& p : receivers_) {
-            const glm::dvec2 at =
-                orthographic ? glm::dvec2(p) - slopes * p.z : glm::dvec2(p - place) / (p.z - place.z);
-            low = glm::min(low, at);
-            high = glm::max(high, at);
-        }
-        const glm::dvec2 extent = high - low;
-        const double smallest =
-            1e-6 * (orthographic ? far_m - near_m : 1) + 1e-6 * std::max(extent.x, extent.y);
-        const glm::dvec2 border = glm::max(extent, smallest) * (2.0 / std::max(1, mapSize_px - 4));
-        glm::dmat4 camera(faceFromLight[0]);
-        if (orthographic) {
-            // Slanted along the light's direction: what lies on one ray falls on one place.
-            glm::dmat3 slant(1);
-            slant[2] = glm::dvec3(-slopes, 1);
-            camera = glm::dmat4(slant * faceFromLight[0]);
-        } else {
-            camera[3] = glm::dvec4(-place, 1);
-        }
-        add(camera, orthographic ? glm::dvec3(slopes, 0) : place, low - border, high + border, mapSize_px);
+        for (int face = 0; face < faces; ++face) fitWindow(sample, receivers_[std::size_t(face)], mapSize_px);
     }
+}
+
+void SampleCameras::fitWindow(const LightSample& sample, std::span<const glm::dvec3> receivers,
+                              int mapSize_px) {
+    const glm::dvec3 place = faceFromLight[0] * glm::dvec3(sample.place);
+    const glm::dvec2 slopes = slopesOf(place);
+    glm::dvec2 low(infinity), high(-infinity);
+    for (const glm::dvec3& p : receivers) {
+        const glm::dvec2 at =
+            orthographic ? glm::dvec2(p) - slopes * p.z : glm::dvec2(p - place) / (p.z - place.z);
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+    const glm::dvec2 extent = high - low;
+    const double smallest = 1e-6 * (orthographic ? far_m - near_m : 1) + 1e-6 * std::max(extent.x, extent.y);
+    const glm::dvec2 border = glm::max(extent, smallest) * (2.0 / std::max(1, mapSize_px - 4));
+    glm::dmat4 camera(faceFromLight[0]);
+    if (orthographic) {
+        // Slanted along the light's direction: what lies on one ray falls on one place.
+        glm::dmat3 slant(1);
+        slant[2] = glm::dvec3(-slopes, 1);
+        camera = glm::dmat4(slant * faceFromLight[0]);
+    } else {
+        camera[3] = glm::dvec4(-place, 1);
+    }
+    add(camera, orthographic ? glm::dvec3(slopes, 0) : place, low - border, high + border, mapSize_px);
 }
 
 void SampleCameras::add(const glm::dmat4& camera, const glm::dvec3& origin, glm::dvec2 windowMin,

@@ -51,7 +51,7 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
     mapSize_px_ = mapSize_px;
     faces_ = cameras.faces;
     const int facesInMemory = std::max(1, faces_);
-    const double map_bytes = 4.0 * mapSize_px * mapSize_px;
+    const double map_bytes = texel_bytes * mapSize_px * mapSize_px;
     const int mostLayers = int(std::clamp(std::floor(memory_bytes / map_bytes), double(facesInMemory),
                                           double(std::max(facesInMemory, device_.maxLayers))));
     capacity_ = std::clamp(mostLayers / facesInMemory, 1, std::max(1, expectedSamples));

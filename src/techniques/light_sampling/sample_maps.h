@@ -21,7 +21,7 @@ class SampleMaps {
   public:
     explicit SampleMaps(Device& device);
 
-    static constexpr double memory_bytes = 320.0 * 1024 * 1024;
+    static constexpr double memory_bytes = 320.0 * 1024 * 1024, texel_bytes = 4;
 
     /// Takes this frame's samples, their cameras and the casters. `expectedSamples` maps are made room for at
     /// once if the memory allows, else room for as many as it does. Throws Error::Kind::badArgument for maps

@@ -86,12 +86,27 @@ float texelLit(int layer, LayerTap tap, vec3 pos, vec3 normal, float across, vec
 #endif
 }
 
+#ifdef DISTANT
+// Of a sample's maps for parts of the picture, from `layer` on, the finest that shows the receiver.
+int layerOfPart(int layer, vec3 pos) {
+    for (int part = 0; part + 1 < batch.faces; ++part) {
+        LayerTap tap = layerTaps[layer + part];
+        vec2 uv = (pos.xy - tap.origin.xy * pos.z - tap.window.min) * tap.window.perExtent;
+        if (all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)))) return layer + part;
+    }
+    return layer + batch.faces - 1;
+}
+#endif
+
 #if !defined(CUBE)
 // What a sample's map tells of its surroundings on the light. A blocker at some depth between receiver and light is
 // seen from a place that lies `step` beside the sample where the line from there to the receiver passes its depth: so
 // the map is asked there. `nearness` says how near to the light the blocker is: 1 / depth, less that of the receiver,
 // or for distant lights the depth between the two. Depths are those in the map.
 float blockerNearness(int layer, Lookup lookup) {
+#ifdef DISTANT
+    layer = layerOfPart(layer, lookup.pos);
+#endif
     LayerTap tap = layerTaps[layer];
     vec3 pos = lookup.pos;
 #ifdef DISTANT
@@ -110,24 +125,27 @@ float blockerNearness(int layer, Lookup lookup) {
 #endif
 }
 
+// Negative where the map does not show that place.
 float besideSampleLit(int layer, Lookup lookup, vec3 place, vec3 step, float nearness) {
-    LayerTap tap = layerTaps[layer];
     vec3 pos = lookup.pos;
 #ifdef DISTANT
+    layer = layerOfPart(layer, pos);
+    LayerTap tap = layerTaps[layer];
     vec3 beside = mat3(sampling.faceFromLight[0]) * (place + step);
     vec2 slopes = beside.xy / min(beside.z, -1e-6);
     vec2 seenAt = pos.xy - tap.origin.xy * pos.z - (slopes - tap.origin.xy) * nearness;
 #else
+    LayerTap tap = layerTaps[layer];
     pos -= tap.origin;
     if (!(pos.z > 0.0)) return 1.0;
     float blocked = nearness * pos.z / (1.0 + nearness * pos.z);
     vec3 passes = mix(pos, mat3(sampling.faceFromLight[0]) * step, blocked);
-    if (!(passes.z > 0.0)) return 1.0;
+    if (!(passes.z > 0.0)) return -1.0;
     vec2 seenAt = passes.xy / passes.z;
 #endif
     float size_px = float(textureSize(maps, 0).x);
     vec2 at = (seenAt - tap.window.min) * tap.window.perExtent * size_px;
-    if (!(all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(size_px))))) return 1.0;
+    if (!(all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(size_px))))) return -1.0;
     return texelLit(layer, tap, pos, lookup.normal, dot(lookup.normal, pos), floor(at), size_px);
 }
 #endif
@@ -153,6 +171,7 @@ float sampleLit(int layer, Lookup lookup) {
     normal = mat3(sampling.faceFromLight[face]) * normal;
     float across = dot(normal, pos);
 #elif defined(DISTANT)
+    layer = layerOfPart(layer, pos);
     LayerTap tap = layerTaps[layer];
     vec2 place = pos.xy - tap.origin.xy * pos.z;
     float across = dot(normal, pos);

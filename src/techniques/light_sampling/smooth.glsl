@@ -21,13 +21,19 @@ float meanNearness(Comparison comparison, Lookup lookup) {
 float cellLit(int vertex, Lookup lookup, float nearness) {
     LightSample light = samples[vertex];
     int layer = layerOf(subdivision.slotOfVertex[vertex]);
-    float lit = 0.0;
+    float lit = 0.0, own = -1.0;
     for (int i = 0; i < constants.taps; ++i) {
         vec2 at = vec2(float(i) / float(constants.taps), float(bitfieldReverse(uint(i))) / 4294967296.0);
         at += 0.5 / float(constants.taps) - 0.5;
         at = light.normal.w * at + vec2(light.spanU.w, light.spanV.w);
         vec3 step = at.x * light.spanU.xyz + at.y * light.spanV.xyz;
-        lit += besideSampleLit(layer, lookup, light.place.xyz, step, nearness);
+        float beside = besideSampleLit(layer, lookup, light.place.xyz, step, nearness);
+        if (beside < 0.0) {
+            // Blockers close to the light make kernels larger than the map: there the sample's own point has to do.
+            if (own < 0.0) own = sampleLit(layer, lookup);
+            beside = own;
+        }
+        lit += beside;
     }
     return lit / float(constants.taps);
 }

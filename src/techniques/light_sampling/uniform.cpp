@@ -40,8 +40,8 @@ void UniformLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& 
     const LightSurface surface(inputs.light, scene);
     choose(surface);
     const int count = int(samples_.size());
-    const int mapSize_px = mapSizeFor(surface, mapSize_px_);
-    cameras_.fit(inputs.light, surface, samples_, scene, mapSize_px);
+    const int mapSize_px = cameras_.fitMaps(inputs.light, surface, samples_, scene, mapSize_px_,
+                                            SampleMaps::memory_bytes / SampleMaps::texel_bytes);
     maps_.prepare(inputs.casters, scene, samples_, cameras_, mapSize_px, count);
     maps_.planAll();
     if (inputs.light.radianceTexture != 0) {

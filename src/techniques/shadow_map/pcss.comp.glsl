@@ -21,6 +21,7 @@ uniform writeonly image2D visibility;
 
 const float largestK = 1e4;
 const int mostRounds = 8;
+const int mostSearches = 8;
 const float rounding = 1.01;  // what bounds of k may be short of
 
 // What makes one pixel's pattern differ from the next one's; nothing by default.
@@ -133,24 +134,33 @@ float largestKOfBlockers(int camera, LightFrame face, LightFrame lightFrame) {
     return k;
 }
 
-// The mean k of the blockers that may hide some of the light, none of which is larger than `k`; 0 if there are none. What
-// has a larger one lies beside the light: it is no blocker.
-float searchBlockers(int camera, LightFrame face, LightFrame lightFrame, Dither dither, float k) {
-    float area = 0.0, areaTimesK = 0.0, areaOverK = 0.0;
-    for (int i = 0; i < pcss.searchSamples; ++i) {
-        vec2 direction = dither.rotation * searchPattern[i].xy;
-        float outline = pcss.light.shape == shapeRect ? 1.0 / max(abs(direction.x), abs(direction.y)) : 1.0;
-        float fraction = searchPattern[i].z;
-        Tap tap = tapAny(camera, pcss.mapCount, face, lightFrame, k * fraction * outline * direction);
-        if (!tap.isBlocked || tap.k > rounding * k) continue;
-        // Its part of the searched area. Distances are even, hence the factor; the centre has a disk to itself.
-        float part = max(fraction, 0.25 / float(pcss.searchSamples)) * outline * outline;
-        area += part;
-        areaTimesK += part * tap.k;
-        areaOverK += part / tap.k;
+// The mean k of the blockers that may hide some of the light, none of which is larger than `k`; 0 if there are none. A
+// blocker hides some where it is seen within the light's outline, times its own k; beside that, up to the taps' distance.
+// What has a larger k than all that do lies beside the light, as a room's walls and ceiling: it is no blocker, and the
+// search goes on nearer to the receiver, with `k` no larger than the largest of those that do.
+float searchBlockers(int camera, LightFrame face, LightFrame lightFrame, Dither dither, inout float k) {
+    float apart = 0.5 / sqrt(float(pcss.searchSamples));
+    for (int round = 0; round < mostSearches; ++round) {
+        float area = 0.0, areaTimesK = 0.0, areaOverK = 0.0, largest = 0.0, largestHiding = 0.0;
+        for (int i = 0; i < pcss.searchSamples; ++i) {
+            vec2 direction = dither.rotation * searchPattern[i].xy;
+            float outline = pcss.light.shape == shapeRect ? 1.0 / max(abs(direction.x), abs(direction.y)) : 1.0;
+            float fraction = searchPattern[i].z;
+            Tap tap = tapAny(camera, pcss.mapCount, face, lightFrame, k * fraction * outline * direction);
+            if (!tap.isBlocked || tap.k > rounding * k) continue;
+            // Its part of the searched area. Distances are even, hence the factor; the centre has a disk to itself.
+            float part = max(fraction, 0.25 / float(pcss.searchSamples)) * outline * outline;
+            area += part;
+            areaTimesK += part * tap.k;
+            areaOverK += part / tap.k;
+            largest = max(largest, tap.k);
+            if (fraction * k <= tap.k + apart * k) largestHiding = max(largestHiding, tap.k);
+        }
+        if (largestHiding == 0.0) return 0.0;
+        k = min(k, largestHiding);
+        if (largest <= rounding * largestHiding) return pcss.meanIsHarmonic ? area / areaOverK : areaTimesK / area;
     }
-    if (area == 0.0) return 0.0;
-    return pcss.meanIsHarmonic ? area / areaOverK : areaTimesK / area;
+    return k;
 }
 
 vec3 seenBy(Receiver receiver, Dither dither) {
