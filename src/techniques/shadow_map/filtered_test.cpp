@@ -2,9 +2,11 @@
 // pcf and pcss: closed forms, their kernels' known answers, cube faces, and the reference.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "studio/scene/builtin/builtin.h"
+#include "studio/scene/open_scene.h"
 #include "tests/support/technique_test.h"
 
 namespace penumbra::studio {
@@ -256,6 +258,18 @@ TEST_F(PcfTest, CubeOfMapsHasNoSeams) {
             judge(truth(edge, defaultSize, 64),
                   render("pcf", edge, defaultSize, {{"kernel", kernel}, {"radius", "4"}}));
         EXPECT_LE(metrics.false_shadow, 0.01) << kernel;
+    }
+}
+
+TEST_F(PcssTest, WhatStandsBesideTheLightHidesNothing) {
+    // Rooms whose walls and ceilings reach the panel's height: 3 to 74 % were dark.
+    const std::filesystem::path field = "../shared/scenes/field";
+    if (!std::filesystem::exists(field)) GTEST_SKIP() << field << " is not here";
+    for (const char* name :
+         {"pcss-wall-2.5", "room-0", "room-1mm", "ceiling-h27", "ceiling-below_0.05", "ceiling-rot_tilt"}) {
+        const Scene scene = openScene((field / name).string() + ".glb");
+        const VisibilityMetrics metrics = judge(truth(scene, plan), render("pcss", scene, plan));
+        EXPECT_LE(metrics.false_shadow, 0.01) << name;
     }
 }
 
