@@ -10,6 +10,7 @@
 
 #include "penumbra/technique.h"
 #include "studio/errors.h"
+#include "studio/scene/profiles/profile_file.h"
 #include "studio/scene/solid.h"
 #include "studio/scene/topology.h"
 #include "studio/workbench/settle.h"

@@ -90,11 +90,10 @@ int SampleCameras::fitMaps(const AreaLight& light, const LightSurface& surface,
         // lattice lie a texel apart under a sun of this angle. Under a narrower one they fall together: fewer
         // samples, and finer maps of as many texels in all, see more.
         const double even_rad = double(latticeSide) * 8 / mapSize_px;
-        const double finer = std::sqrt(even_rad / double(light.angle_rad) / std::max(1, faces));
-        const double room_px = std::sqrt(memory_texels / std::max(1, faces));
-        size_px =
-            int(std::clamp(finer, 1.0, std::max(1.0, std::min(room_px / mapSize_px, double(mostTimes)))) *
-                mapSize_px);
+        const double finer =
+            std::sqrt(even_rad / std::max(double(light.angle_rad), 1e-6) / std::max(1, faces));
+        const double room = std::sqrt(memory_texels / double(std::max(1, faces))) / mapSize_px;
+        size_px = std::clamp(int(std::min(finer, room)), 1, mostTimes) * mapSize_px;
         if (size_px > mapSize_px) fit(light, surface, samples, scene, std::min(size_px, largest_px));
     }
     return std::min(size_px, largest_px);

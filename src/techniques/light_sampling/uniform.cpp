@@ -41,7 +41,7 @@ void UniformLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& 
     choose(surface);
     const int count = int(samples_.size());
     const int mapSize_px = cameras_.fitMaps(inputs.light, surface, samples_, scene, mapSize_px_,
-                                            SampleMaps::memory_bytes / SampleMaps::texel_bytes);
+                                            SampleMaps::memory_bytes / (count * SampleMaps::texel_bytes));
     maps_.prepare(inputs.casters, scene, samples_, cameras_, mapSize_px, count);
     maps_.planAll();
     if (inputs.light.radianceTexture != 0) {
