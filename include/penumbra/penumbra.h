@@ -9,6 +9,7 @@
 #include "penumbra/light.h"
 #include "penumbra/math.h"
 #include "penumbra/parameters.h"
+#include "penumbra/points.h"
 #include "penumbra/promise.h"
 #include "penumbra/technique.h"
 #include "penumbra/version.h"

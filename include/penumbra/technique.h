@@ -126,6 +126,10 @@ class PENUMBRA_API Technique {
     /// from call to call; what is allocated follows.
     virtual void render(const ShadowInputs& inputs, VisibilityBuffer& out) = 0;
 
+    /// Whether `render` takes points in place of a picture (View::isOfPoints). Where it does not, it throws
+    /// Error::Kind::badArgument for them.
+    virtual bool answersAtPoints() const { return false; }
+
     /// Visits the intermediate buffers of the last render.
     virtual void inspect(InspectionVisitor&) const {}
 

@@ -61,6 +61,15 @@ struct View {
     /// As the depth texture, single- or multisampled, borrowed, optional (0: everything receives). A pixel
     /// whose red channel is below 0.5 belongs to a surface that receives no shadow: its visibility is 1.
     std::uint32_t receiverTexture = 0;
+
+    /// True: there is no picture and no camera. Each pixel is a point that the host has chosen, such as a
+    /// plan's grid or a lightmap's texels. The depth texture is then a GL_RGBA32F of the view's size whose
+    /// red channel is 1 where there is a point and 0 where there is none, and whose green, blue and alpha
+    /// channels are its position in world space; normalTexture must be there; matrices, depth convention and
+    /// polygon offset are not looked at. `Points` makes such a view. Points that lie near each other should
+    /// lie near each other in the texture, within 8 x 8 pixels: it costs less. For techniques that can answer
+    /// without a picture (Technique::answersAtPoints).
+    bool isOfPoints = false;
 };
 
 }  // namespace penumbra

@@ -76,6 +76,16 @@ Technique& Automatic::take(std::size_t step) {
     return taken;
 }
 
+/// Of those that answer at points the cheapest that keeps the error: a dearer one errs less.
+Technique& Automatic::takeForPoints() {
+    for (std::size_t step = keeper_.wanted() + 1; step-- > 0;) {
+        Technique& technique = take(step);
+        if (technique.answersAtPoints()) return technique;
+    }
+    throw Error(Error::Kind::badArgument, "auto: no technique answers at points with max_error " +
+                                              shortest(maxError_) + ": take another than auto");
+}
+
 void Automatic::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     if (candidates_.front().promise.penumbraRmse > maxError_) {
         throw Error(Error::Kind::badArgument, "max_error: no technique promises less than " +
@@ -85,6 +95,8 @@ void Automatic::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const bool hasBudget = budget_ms_ < std::numeric_limits<float>::infinity();
     if (hasBudget && frames_.begins(inputs)) endFrame();
     keeper_.want(maxError_, budget_ms_);
+    // Points have no steady state whose time could be kept.
+    if (inputs.view.isOfPoints) return takeForPoints().render(inputs, out);
     Technique& technique = take(keeper_.current());
     if (hasBudget) {
         measure(inputs, out, technique);

@@ -31,11 +31,14 @@ class Automatic final : public Technique {
     void describe(ParameterVisitor& visitor) override;
     /// Throws Error::Kind::badArgument where the error asked for is less than anybody promises.
     void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
+    /// Through those that do.
+    bool answersAtPoints() const override { return true; }
     void inspect(InspectionVisitor& visitor) const override;
     Statistics statistics() const override;
 
   private:
     Technique& take(std::size_t step);
+    Technique& takeForPoints();
     Technique& technique(std::string_view name) const;  ///< one that was made
     void measure(const ShadowInputs& inputs, VisibilityBuffer& out, Technique& technique);
     void endFrame();

@@ -183,8 +183,29 @@ void requireColorTexture(std::uint32_t texture, const Argument& argument) {
         refuse(argument, "holds depths or integers: give a texture with a format of colours, or 0");
 }
 
-void checkView(const View& view) {
-    if (view.width_px < 1 || view.height_px < 1) refuse("View:", "width_px and height_px must be at least 1");
+namespace {
+
+/// One that a shader reads texel by texel, as large as the view.
+void requirePointTexture(GLuint texture, const Argument& argument, const View& view, bool isPositions) {
+    const GLenum target = gl::targetOf(texture);
+    if (target == GL_NONE) refuseName(texture, argument);
+    const bool fits = target == GL_TEXTURE_2D && view.x_px == 0 && view.y_px == 0 &&
+                      levelParameter(texture, GL_TEXTURE_WIDTH) == view.width_px &&
+                      levelParameter(texture, GL_TEXTURE_HEIGHT) == view.height_px;
+    if (!fits) refuse(argument, "is no GL_TEXTURE_2D of exactly the view's size, as those of points are");
+    if (isPositions && levelParameter(texture, GL_TEXTURE_INTERNAL_FORMAT) != GL_RGBA32F)
+        refuse(argument, "has not the format GL_RGBA32F, which points need");
+}
+
+void checkPoints(const View& view) {
+    if (view.normalTexture == 0) refuse("View: normalTexture", "is missing: points have a normal each");
+    requirePointTexture(view.depthTexture, "View: depthTexture", view, true);
+    requirePointTexture(view.normalTexture, "View: normalTexture", view, false);
+    if (view.receiverTexture != 0)
+        requirePointTexture(view.receiverTexture, "View: receiverTexture", view, false);
+}
+
+void checkPicture(const View& view) {
     requireRotation(view.viewFromWorld, "View: viewFromWorld");
     if (!isFinite(view.clipFromView))
         refuse("View:", "clipFromView is not finite: give your camera's projection");
@@ -214,6 +235,13 @@ void checkView(const View& view) {
             refuse("View:", "receiverTexture has no red channel of fractions: give one such as GL_R8, or 0");
         }
     }
+}
+
+}  // namespace
+
+void checkView(const View& view) {
+    if (view.width_px < 1 || view.height_px < 1) refuse("View:", "width_px and height_px must be at least 1");
+    view.isOfPoints ? checkPoints(view) : checkPicture(view);
 }
 
 void checkInputs(const View& view, const AreaLight& light, const VisibilityBuffer& out,

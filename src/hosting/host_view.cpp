@@ -48,6 +48,16 @@ Mat4 shifted(const Mat4& clipFromView, const glm::dvec3& shift) {
     return result;
 }
 
+/// Without what points do not have: positions in world space are seen from its origin.
+View plainPoints(const View& view) {
+    return {.width_px = view.width_px,
+            .height_px = view.height_px,
+            .depthTexture = view.depthTexture,
+            .normalTexture = view.normalTexture,
+            .receiverTexture = view.receiverTexture,
+            .isOfPoints = true};
+}
+
 }  // namespace
 
 ReadableTexture::ReadableTexture(GLuint texture)
@@ -80,6 +90,7 @@ ReadableTexture::~ReadableTexture() {
 }
 
 View HostView::prepare(const View& view) {
+    if (view.isOfPoints) return plainPoints(view);
     View plain = view;
     glm::dvec3 shift(0);
     if (isMultisampled(view.depthTexture)) {

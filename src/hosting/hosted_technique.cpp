@@ -26,6 +26,10 @@ void HostedTechnique::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
     const HostScope scope(internalsOf(device_));
     checkInputs(inputs.view, inputs.light, out, internalsOf(device_));
     checkCasters(inputs.casters, internalsOf(device_));
+    if (inputs.view.isOfPoints && !answersAtPoints()) {
+        refuse("View: isOfPoints:",
+               "this technique needs a picture: take one that answers at points, such as exact or auto");
+    }
     warnOfPolygonOffset(scope.hostsPolygonOffset(), inputs.view);
     if (internalsOf(device_).diagnoses) diagnoseOnce(inputs);
     const ReadableTexture depth(inputs.view.depthTexture), normals(inputs.view.normalTexture),
@@ -38,7 +42,7 @@ void HostedTechnique::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
 }
 
 void HostedTechnique::diagnoseOnce(const ShadowInputs& inputs) {
-    if (std::exchange(isDiagnosed_, true)) return;
+    if (inputs.view.isOfPoints || std::exchange(isDiagnosed_, true)) return;
     for (const std::string& finding :
          diagnoseInScope(internalsOf(device_), inputs.view, inputs.casters).findings)
         internalsOf(device_).log.write(LogLevel::warning, "diagnosis: " + finding);

@@ -17,6 +17,7 @@ class HostedTechnique final : public Technique {
 
     void describe(ParameterVisitor& visitor) override;
     void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
+    bool answersAtPoints() const override { return technique_->answersAtPoints(); }
     void inspect(InspectionVisitor& visitor) const override;
     Statistics statistics() const override;
 

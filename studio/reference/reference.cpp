@@ -108,15 +108,20 @@ struct PixelResult {
 class PixelTracer {
   public:
     PixelTracer(const OcclusionScene& scene, const LightSampler& light, const SobolPoints& points,
-                std::uint32_t seed)
-        : scene_(scene), light_(light), points_(points), seed_(seed) {
+                std::uint32_t seed, const ReceiverImage& receivers)
+        : scene_(scene),
+          light_(light),
+          points_(points),
+          seed_(seed),
+          eyeWorld_(receivers.eyeWorld),
+          reach_(receivers.areFromDepth ? surfaceReach : 0) {
         fan_.lightPlane = light.plane();
     }
 
-    PixelResult trace(std::uint32_t pixel, const glm::vec3& posFromDepth, const glm::vec3& normalWorld,
-                      const glm::vec3& eyeWorld) {
-        const float scale = roundingScale(posFromDepth, eyeWorld);
-        const glm::vec3 posWorld(scene_.onSurface(posFromDepth, normalWorld, surfaceReach * scale));
+    PixelResult trace(std::uint32_t pixel, const glm::vec3& posGiven, const glm::vec3& normalWorld) {
+        const float scale = roundingScale(posGiven, eyeWorld_);
+        const glm::vec3 posWorld =
+            reach_ > 0 ? glm::vec3(scene_.onSurface(posGiven, normalWorld, reach_ * scale)) : posGiven;
         const glm::vec3 origin = posWorld + rayStart * scale * normalWorld;
         chooseRays(pixel, posWorld, normalWorld, origin);
         sortRays();
@@ -210,6 +215,8 @@ class PixelTracer {
     const LightSampler& light_;
     const SobolPoints& points_;
     std::uint32_t seed_;
+    glm::vec3 eyeWorld_;
+    float reach_;  // in multiples of a position's scale
     std::vector<Ray> rays_;
     std::vector<std::uint32_t> order_;  // place of each ray in the fan
     RayFan fan_;
@@ -266,7 +273,7 @@ ReferenceResult ReferenceScene::trace(const ReceiverImage& receivers, const Area
     std::size_t tilesDone = 0;
 
     const auto traceTile = [&](std::size_t tile) {
-        PixelTracer tracer(state_->scene, sampler, points, options.seed);
+        PixelTracer tracer(state_->scene, sampler, points, options.seed, receivers);
         const int left = int(tile) % columns * tileSize_px, top = int(tile) / columns * tileSize_px;
         for (int y = top; y < std::min(top + tileSize_px, receivers.height_px); ++y) {
             for (int x = left; x < std::min(left + tileSize_px, receivers.width_px); ++x) {
@@ -274,8 +281,7 @@ ReferenceResult ReferenceScene::trace(const ReceiverImage& receivers, const Area
                 const glm::vec3 &posWorld = receivers.posWorld[pixel],
                                 &normalWorld = receivers.normalWorld[pixel];
                 if (receivers.valid[pixel] == 0 || !isFinite(posWorld) || !isFinite(normalWorld)) continue;
-                const PixelResult traced =
-                    tracer.trace(std::uint32_t(pixel), posWorld, normalWorld, receivers.eyeWorld);
+                const PixelResult traced = tracer.trace(std::uint32_t(pixel), posWorld, normalWorld);
                 for (int c = 0; c < sampler.channels(); ++c)
                     result.visibility.at(x, y, c) = traced.visibility[c];
                 tiles[tile].squaredError += traced.squaredError;

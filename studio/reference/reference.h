@@ -26,6 +26,8 @@ struct ReceiverImage {
     std::vector<std::uint8_t> valid;     ///< 0: no surface, or one that receives no shadow; V is 1 there
     /// Where the positions were seen from: their rounding errors grow with the distance from here.
     glm::vec3 eyeWorld{0};
+    /// False: the positions are as exact as floats are, and are left where they are.
+    bool areFromDepth = true;
 };
 
 /// Radiance over a rect light: linear, three channels, row 0 at the light's -Y edge, column 0 at its -X edge.
@@ -92,6 +94,7 @@ class ReferenceScene {
     /// Receivers are first moved onto the surface that they show: the plane of the nearest triangle across
     /// their normal, if one lies within 1e-3 of (their distance from the eye + their largest coordinate). A
     /// depth buffer's position of a triangle of 400 m is off by more than what a contact shadow can bear.
+    /// (Those that are not from depth are not moved.)
     ///
     /// A blocker exactly in the receiver's plane does not block, nor one in the light's own
     /// (penumbra/light_plane.h): rays start off the surface by 4e-6 of (its distance from the eye + its

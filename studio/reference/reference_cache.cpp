@@ -84,6 +84,7 @@ ContentHash traceKey(const ReferenceScene& scene, const ReceiverImage& receivers
     hasher.addArray(receivers.normalWorld);
     hasher.addArray(receivers.valid);
     hasher.addArray(std::span(&receivers.eyeWorld, 1));
+    if (!receivers.areFromDepth) hasher.add(int(receivers.areFromDepth));
     hasher.add(int(light.shape));
     hasher.addArray(light.worldFromLight.columns);
     for (const float size : {light.width_m, light.height_m, light.radius_m, light.angle_rad})

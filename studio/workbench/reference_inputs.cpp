@@ -45,9 +45,25 @@ TracedAlphaMask readMask(const AlphaMask& mask, std::vector<std::uint8_t>& rgba)
     return read;
 }
 
+/// Of a view of points.
+ReceiverImage readPoints(const View& view) {
+    const Image places = readTexture(view.depthTexture, view.width_px, view.height_px, 4);
+    const Image normals = readTexture(view.normalTexture, view.width_px, view.height_px, 3);
+    ReceiverImage receivers{.width_px = view.width_px, .height_px = view.height_px, .areFromDepth = false};
+    for (int y = 0; y < view.height_px; ++y) {
+        for (int x = 0; x < view.width_px; ++x) {
+            receivers.valid.push_back(places.at(x, y, 0) > 0);
+            receivers.posWorld.emplace_back(places.at(x, y, 1), places.at(x, y, 2), places.at(x, y, 3));
+            receivers.normalWorld.emplace_back(normals.at(x, y, 0), normals.at(x, y, 1), normals.at(x, y, 2));
+        }
+    }
+    return receivers;
+}
+
 }  // namespace
 
 ReceiverImage readReceivers(const View& view) {
+    if (view.isOfPoints) return readPoints(view);
     const int width = view.width_px, height = view.height_px;
     Image depth(width, height, 1);
     const auto bytes = GLsizei(depth.values.size() * sizeof(float));

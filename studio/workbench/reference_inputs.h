@@ -11,7 +11,8 @@
 
 namespace penumbra::studio {
 
-/// The surface points of a view, read back from its depth, normals (which it must have) and receiver mask.
+/// The surface points of a view, read back from its depth, normals (which it must have) and receiver mask, or
+/// the points that it holds in place of a picture.
 /// Waits for the device.
 ReceiverImage readReceivers(const View& view);
 

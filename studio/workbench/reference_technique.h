@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "penumbra/technique.h"
+#include "src/gl/texture.h"
 #include "studio/reference/reference_cache.h"
 
 namespace penumbra::studio {
@@ -14,6 +15,9 @@ class ReferenceTechnique final : public Technique {
   public:
     void describe(ParameterVisitor& visitor) override;
     void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
+    bool answersAtPoints() const override { return true; }
+    /// "error bound": of each pixel, what it is within in 999 of 1,000.
+    void inspect(InspectionVisitor& visitor) const override;
     Statistics statistics() const override;
 
     /// Called now and then during render with the share that is done.
@@ -27,6 +31,7 @@ class ReferenceTechnique final : public Technique {
 
     std::function<void(double)> progress_;
     ReferenceResult last_;
+    gl::Texture errorBound_;
 };
 
 }  // namespace penumbra::studio

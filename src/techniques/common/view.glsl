@@ -57,8 +57,9 @@ bool isReceiver(ivec2 pixel) {
 // The same, and where and what it is.
 bool loadReceiver(ivec2 pixel, out Receiver receiver) {
     if (!isReceiver(pixel)) return false;
-    float depth = texelFetch(viewDepth, pixel, 0).r;
-    receiver.posLight = positionLight(pixel, depth);
+    vec4 stored = texelFetch(viewDepth, pixel, 0);
+    float depth = stored.r;
+    receiver.posLight = view.isOfPoints ? (view.lightFromWorld * vec4(stored.gba, 1.0)).xyz : positionLight(pixel, depth);
     receiver.normalLight =
         hasNormals
             ? mat3(view.lightFromWorld) * texelFetch(viewNormals, pixel, 0).rgb

@@ -31,6 +31,8 @@ void ViewBinding::fill(const View& view, const glm::dmat4& lightFromWorldMatrix)
     glm::dmat4 clipFromPicture(1);
     clipFromPicture[2][2] = zScale * depthScale;
     clipFromPicture[3][2] = zScale * depthOffset + zOffset;
+    // Points lie where they say, whatever their depth.
+    if (view.isOfPoints) clipFromPicture[2] = glm::dvec4(0);
     constants_.write({
         .lightFromPicture = lightFromWorldMatrix * glm::inverse(clipFromWorld) * clipFromPicture,
         .lightFromWorld = lightFromWorldMatrix,
@@ -40,6 +42,7 @@ void ViewBinding::fill(const View& view, const glm::dmat4& lightFromWorldMatrix)
         .hasNormals = view.normalTexture != 0,
         .size_px = {view.width_px, view.height_px},
         .hasReceiverMask = view.receiverTexture != 0,
+        .isOfPoints = view.isOfPoints,
     });
     depth_ = view.depthTexture;
     normals_ = view.normalTexture;

@@ -18,6 +18,7 @@ SHARED_STRUCT ViewConstants {
     bool32 hasNormals;
     ivec2 size_px;
     bool32 hasReceiverMask;
+    bool32 isOfPoints;  // green, blue and alpha of what is stored as depth: the position in world space
 };
 
 #ifdef __cplusplus

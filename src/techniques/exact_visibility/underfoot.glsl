@@ -22,7 +22,7 @@ Footing footingOf(ivec2 pixel, Receiver receiver) {
     const float step_ = 1.0 / 256.0;
     float depth = depthAt(pixel);
     float nearness = depth * view.nearnessScale + view.nearnessOffset;
-    vec3 moved = positionLight(pixel, depth + step_ * nearness * view.nearnessScale) - receiver.posLight;
+    vec3 moved = positionLight(pixel, depth + step_ * nearness * view.nearnessScale) - positionLight(pixel, depth);
     return Footing(dot(light.sight, receiver.posLight) + light.sightOffset, 1.0 / nearness,
                    abs(dot(receiver.normalLight, moved)) / step_);
 }
