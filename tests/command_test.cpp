@@ -1,71 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command as a script meets it: exit codes, messages, files, JSON.
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <sstream>
 
 #include "studio/image/image_io.h"
+#include "tests/support/command_test.h"
 
 namespace penumbra::studio {
 namespace {
-
-namespace fs = std::filesystem;
-
-struct Outcome {
-    int exitCode = -1;
-    std::string out, err;
-};
-
-std::string readText(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return std::move(text).str();
-}
-
-class CommandTest : public ::testing::Test {
-  protected:
-    void SetUp() override {
-        fs::create_directories(folder);
-        // A cache of its own, so that no test depends on what others have left.
-        setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
-    }
-    void TearDown() override {
-        fs::permissions(folder, fs::perms::owner_all);
-        fs::remove_all(folder);
-    }
-
-    Outcome run(const std::string& arguments) const {
-        const fs::path out = folder / "stdout", err = folder / "stderr";
-        const int status = std::system(
-            (PENUMBRA_COMMAND " " + arguments + " >" + out.string() + " 2>" + err.string()).c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(out), readText(err)};
-    }
-    std::string at(const std::string& name) const { return (folder / name).string(); }
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder / name) << text;
-    }
-
-    /// Everything in the folder but what run() and the cache leave.
-    std::vector<std::string> files() const {
-        std::vector<std::string> names;
-        for (const auto& entry : fs::directory_iterator(folder)) {
-            const std::string name = entry.path().filename();
-            if (name != "stdout" && name != "stderr" && name != "cache") names.push_back(name);
-        }
-        std::ranges::sort(names);
-        return names;
-    }
-
-    const fs::path folder = fs::temp_directory_path() / ("penumbra-command-" + std::to_string(getpid()));
-};
 
 TEST_F(CommandTest, ListsWhatThereIs) {
     const Outcome techniques = run("list techniques");

@@ -13,6 +13,7 @@ void addBench(CLI::App& app);
 void addReproduce(CLI::App& app, const std::string& commandLine);
 void addInfo(CLI::App& app);
 void addList(CLI::App& app);
+void addMeasure(CLI::App& app, const std::string& commandLine);
 void addView(CLI::App& app);
 
 }  // namespace penumbra::studio

@@ -52,7 +52,7 @@ _penumbra() {
         mapfile -t COMPREPLY < <(IFS=$'\n' compgen -W "$(_penumbra_cameras "$command")" -- "$word")
         return
         ;;
-    -o | --output | --visibility | --lights)
+    -o | --output | --visibility | --lights | --points | --csv | --merge)
         mapfile -t COMPREPLY < <(compgen -f -- "$word")
         return
         ;;

@@ -130,6 +130,7 @@ int main(int argc, char** argv) {
     studio::addView(app);
     studio::addRender(app, commandLine);
     studio::addCompare(app, commandLine);
+    studio::addMeasure(app, commandLine);
     studio::addBench(app);
     studio::addReproduce(app, commandLine);
     studio::addInfo(app);

@@ -30,6 +30,9 @@ void addRender(CLI::App& app, const std::string&) {
 void addCompare(CLI::App& app, const std::string&) {
     addAbsent(app, "compare");
 }
+void addMeasure(CLI::App& app, const std::string&) {
+    addAbsent(app, "measure");
+}
 void addReproduce(CLI::App& app, const std::string&) {
     addAbsent(app, "reproduce");
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the office beside this script: office.gltf, office.lights.json and panel.ies.
+"""Writes the office beside this script: office.gltf, office.lights.json, panels.lights.json and panel.ies.
 
 A room of 7.2 x 5.4 x 2.8 m with a window to the south (+Z), eight panels flush with its ceiling, and desks.
 """
@@ -97,7 +97,11 @@ def lights():
               for row in range(2) for column in range(4)]
     sun = {"name": "sun", "type": "SunLight", "latitude": 52.52, "longitude": 13.405,
            "time": "2026-02-10T14:30+01:00", "multiplier": 0.05}
-    lines = ",\n    ".join(json.dumps(light) for light in [*panels, sun])
+    return sidecar([*panels, sun]), sidecar(panels)
+
+
+def sidecar(all_lights):
+    lines = ",\n    ".join(json.dumps(light) for light in all_lights)
     return f'{{\n  "version": 1,\n  "lights": [\n    {lines}\n  ]\n}}\n'
 
 
@@ -120,5 +124,7 @@ def panel():
 
 
 if __name__ == "__main__":
-    for name, text in (("office.gltf", office()), ("office.lights.json", lights()), ("panel.ies", panel())):
+    with_sun, panels_alone = lights()
+    for name, text in (("office.gltf", office()), ("office.lights.json", with_sun),
+                       ("panels.lights.json", panels_alone), ("panel.ies", panel())):
         (HERE / name).write_text(text)

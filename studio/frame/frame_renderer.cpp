@@ -6,11 +6,10 @@
 #include <cmath>
 #include <span>
 
-#include "penumbra/light_plane.h"
 #include "src/gl/pass.h"
 #include "studio/frame/conversions.h"
+#include "studio/frame/lighting_constants.h"
 #include "studio/frame/shaders.h"
-#include "studio/scene/profiles/light_profile.h"
 
 namespace penumbra::studio {
 namespace {
@@ -29,38 +28,6 @@ glm::dmat4 worldFromLight(const AreaLight& light, const CameraView& camera) {
     glm::dmat4 matrix = fromPenumbra(light.worldFromLight);
     if (light.shape == LightShape::distant) matrix[3] = glm::inverse(camera.viewFromWorld)[3];
     return matrix;
-}
-
-bool hasSize(const AreaLight& shape) {
-    switch (shape.shape) {
-        case LightShape::rect:
-            return shape.width_m > 0 && shape.height_m > 0;
-        case LightShape::disk:
-        case LightShape::sphere:
-            return shape.radius_m > 0;
-        case LightShape::distant:
-            return shape.angle_rad > 0;
-    }
-    return false;
-}
-
-ProfileConstants profileConstants(const Light& light) {
-    if (!light.profile) return {};
-    const CandelaGrid& grid = light.profile->profile->grid;
-    using Type = CandelaGrid::Type;
-    return {
-        .type = grid.type == Type::A   ? profileTypeA
-                : grid.type == Type::B ? profileTypeB
-                                       : profileTypeC,
-        .verticals = int(grid.verticals_deg.size()),
-        .horizontals = int(grid.horizontals_deg.size()),
-        .firstPlane_rad = float(glm::radians(grid.firstPlane_deg)),
-        .isMirrored = grid.horizontals_deg.front() == 0,
-        .isLuminaire = light.profile->isLuminaire,
-        .turn_rad = light.profile->turn_rad,
-        .angleScale = light.profile->angleScale,
-        .factor = light.profile->factor * light.profile->tilt,
-    };
 }
 
 }  // namespace
@@ -115,35 +82,15 @@ VisibilityBuffer FrameRenderer::makeVisibility(const Light& light) const {
     return VisibilityBuffer(device_, display_.width_px(), display_.height_px(), light.texture >= 0);
 }
 
-LightingConstants FrameRenderer::lightingConstants(const Light& light, bool coloredVisibility) const {
-    const AreaLight& shape = light.shape;
-    const glm::dmat4 lightFromWorld = glm::inverse(worldFromLight(shape, camera_));
-    const glm::vec2 cone = light.cone_rad
-                               ? glm::vec2(std::cos((*light.cone_rad)[0]), std::cos((*light.cone_rad)[1]))
-                               : glm::vec2(-2);
-    return {
-        .lightFromClip = lightFromWorld * glm::inverse(camera_.clipFromView * camera_.viewFromWorld),
-        .lightFromWorld = lightFromWorld,
-        .emission = light.emission.value,
-        .halfAngle_rad = 0.5f * shape.angle_rad,
-        .halfSize_m = {0.5f * shape.width_m, 0.5f * shape.height_m},
-        .coneCosines = cone,
-        .radius_m = shape.radius_m,
-        .shape = int(shape.shape),
-        .isTwoSided = shape.twoSided,
-        .isPoint = light.emission.unit != Emission::Unit::nits && !hasSize(shape),
-        .isTextured = light.texture >= 0,
-        .isVisibilityColored = coloredVisibility,
-        .size_px = {display_.width_px(), display_.height_px()},
-        .planeTolerance = lightPlaneTolerance,
-        .profile = profileConstants(light),
-    };
-}
-
 void FrameRenderer::addLight(const Light& light, const VisibilityBuffer& visibility) {
     const gl::DebugGroup group("lighting");
+    const glm::dmat4 fromLight = worldFromLight(light.shape, camera_);
+    LightingConstants constants = lightingConstants(light, fromLight);
+    constants.lightFromClip = glm::inverse(camera_.clipFromView * camera_.viewFromWorld * fromLight);
+    constants.isVisibilityColored = visibility.colored();
+    constants.size_px = {display_.width_px(), display_.height_px()};
     gl::Pass(lighting_)
-        .constants(lightingConstants(light, visibility.colored()))
+        .constants(constants)
         .bind("Profile", scene_->profile(light))
         .bind("depthTexture", gl::TextureRef{.name = gbuffer_.view().depthTexture})
         .bind("shadingNormals", gbuffer_.shadingNormals())

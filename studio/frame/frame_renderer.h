@@ -70,7 +70,6 @@ class FrameRenderer {
 
   private:
     void resize(int width_px, int height_px);
-    LightingConstants lightingConstants(const Light& light, bool coloredVisibility) const;
 
     Device& device_;
     gl::ShaderLibrary shaders_;

@@ -6,7 +6,7 @@
 
 #include "src/gl/buffer.h"
 #include "src/gl/program.h"
-#include "studio/viewer/false_color.h"
+#include "studio/metrics/false_color.h"
 #include "studio/viewer/sides.h"
 
 namespace penumbra::studio::viewer {

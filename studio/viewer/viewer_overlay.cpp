@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studio/viewer/false_color.h"
+#include "studio/metrics/false_color.h"
 #include "studio/viewer/viewer.h"
 
 #include <GLFW/glfw3.h>

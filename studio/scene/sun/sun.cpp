@@ -134,13 +134,16 @@ SunPlace parseSunPlace(std::string_view text, const std::string& where) {
     return place;
 }
 
+bool isRisen(const SunPosition& position, const SunSetting& setting) {
+    return seenAltitude_deg(position, setting) > -0.5 * position.diameter_deg;
+}
+
 void requireRisen(const SunPlace& place, const SunSetting& setting, const std::string& where) {
     const SunPosition position = sunPosition(place);
-    const double altitude_deg = seenAltitude_deg(position, setting);
-    if (altitude_deg <= -0.5 * position.diameter_deg)
+    if (!isRisen(position, setting))
         throw InputError(fmt::format(
             "{}: the sun is below the horizon there and then: altitude {:.3f}, azimuth {:.3f} degrees", where,
-            altitude_deg, position.azimuth_deg));
+            seenAltitude_deg(position, setting), position.azimuth_deg));
 }
 
 glm::dmat4 worldFromDistantLight(double azimuth_deg, double altitude_deg) {

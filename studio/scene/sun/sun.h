@@ -53,6 +53,9 @@ struct SunSetting {
 /// shines the other way.
 glm::dmat4 worldFromDistantLight(double azimuth_deg, double altitude_deg);
 
+/// Whether some of its disk is above the horizon.
+bool isRisen(const SunPosition& position, const SunSetting& setting);
+
 /// Throws InputError "WHERE: ..." where the sun is below the horizon.
 void requireRisen(const SunPlace& place, const SunSetting& setting, const std::string& where);
 

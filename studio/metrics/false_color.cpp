@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "studio/viewer/false_color.h"
+#include "studio/metrics/false_color.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "studio/metrics/difference_image.h"
 
-namespace penumbra::studio::viewer {
+namespace penumbra::studio {
 namespace {
 
 /// Linear Rec. 709 from CIE L*C*h (CIE 15:2004, white D65).
@@ -88,4 +88,4 @@ ValueRange niceRange(float largest, bool logarithmic) {
     return {logarithmic ? 1e-3f * max : 0, max};
 }
 
-}  // namespace penumbra::studio::viewer
+}  // namespace penumbra::studio

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace penumbra::studio::viewer {
+namespace penumbra::studio {
 
 /// The colour (sRGB-encoded) of `t` in [0, 1], clamped: dark blue over green to light yellow. CIE lightness
 /// rises evenly from 14 to 94, so that the order is seen at once, by the colour-blind and in grey print too.
@@ -28,4 +28,4 @@ struct ValueRange {
 };
 ValueRange niceRange(float largest, bool logarithmic);
 
-}  // namespace penumbra::studio::viewer
+}  // namespace penumbra::studio

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a light sends to a receiver without shadows, for an emission of 1. Includers have declared `light`
+// (LightingConstants) and the buffer `Profile` of floats, `profileValues`. Light space: see unshadowed.glsl.
+#include "studio/frame/unshadowed.glsl"
+#include "studio/frame/profile.glsl"
+
+const vec3 luminanceOfRec709 = vec3(0.2126, 0.7152, 0.0722);
+
+// Irradiance of a light of size zero whose emission is 1 candela or 1 lux.
+float pointIrradiance(vec3 pos, vec3 normal) {
+    vec3 towards = light.shape == shapeDistant ? vec3(0.0, 0.0, 1.0) : -pos;
+    float distance2 = light.shape == shapeDistant ? 1.0 : dot(towards, towards);
+    return distance2 > 0.0 ? max(0.0, dot(normal, normalize(towards))) / distance2 : 0.0;
+}
+
+float irradianceBeforeCone(vec3 pos, vec3 normal) {
+    int shape = light.shape;
+    bool behind = pos.z >= 0.0;
+    if ((shape == shapeRect || shape == shapeDisk) && behind && !light.isTwoSided) return 0.0;
+    // What lies in the plane of a flat light sees nothing of it.
+    vec2 halfSize_m = shape == shapeRect ? light.halfSize_m : vec2(light.radius_m);
+    bool isFlat = (shape == shapeRect || shape == shapeDisk) && !light.isPoint;
+    if (isFlat && abs(pos.z) <= light.planeTolerance * (length(pos) + length(halfSize_m))) return 0.0;
+    if (light.profile.type != noProfile)
+        return profiledIrradiance(light.profile, shape, light.isPoint, light.halfSize_m, light.radius_m, pos, normal);
+    if (light.isPoint) return pointIrradiance(pos, normal);
+    if (shape == shapeRect) return rectIrradiance(pos, normal, light.halfSize_m);
+    if (shape == shapeDisk) return diskIrradiance(pos, normal, light.radius_m);
+    if (shape == shapeSphere) {
+        float distance = length(pos);
+        return distance > 0.0 ? coneIrradiance(-pos / distance, normal, min(1.0, light.radius_m / distance)) : 0.0;
+    }
+    return coneIrradiance(vec3(0.0, 0.0, 1.0), normal, sin(light.halfAngle_rad));
+}
+
+// The falloff of KHR_lights_punctual, between the inner and the outer cone.
+float spotFactor(vec3 pos) {
+    if (light.coneCosines.y < -1.5) return 1.0;
+    float cosine = dot(normalize(pos), vec3(0.0, 0.0, -1.0));
+    float factor = clamp((cosine - light.coneCosines.y) / max(1e-4, light.coneCosines.x - light.coneCosines.y), 0.0, 1.0);
+    return factor * factor;
+}
+
+float irradiance(vec3 pos, vec3 normal) {
+    float all = irradianceBeforeCone(pos, normal);
+    return all > 0.0 ? all * spotFactor(pos) : 0.0;
+}

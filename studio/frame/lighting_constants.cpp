@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/frame/lighting_constants.h"
+
+#include <cmath>
+
+#include "penumbra/light_plane.h"
+#include "studio/scene/profiles/light_profile.h"
+
+namespace penumbra::studio {
+namespace {
+
+bool hasSize(const AreaLight& shape) {
+    switch (shape.shape) {
+        case LightShape::rect:
+            return shape.width_m > 0 && shape.height_m > 0;
+        case LightShape::disk:
+        case LightShape::sphere:
+            return shape.radius_m > 0;
+        case LightShape::distant:
+            return shape.angle_rad > 0;
+    }
+    return false;
+}
+
+ProfileConstants profileConstants(const Light& light) {
+    if (!light.profile) return {};
+    const CandelaGrid& grid = light.profile->profile->grid;
+    using Type = CandelaGrid::Type;
+    return {
+        .type = grid.type == Type::A   ? profileTypeA
+                : grid.type == Type::B ? profileTypeB
+                                       : profileTypeC,
+        .verticals = int(grid.verticals_deg.size()),
+        .horizontals = int(grid.horizontals_deg.size()),
+        .firstPlane_rad = float(glm::radians(grid.firstPlane_deg)),
+        .isMirrored = grid.horizontals_deg.front() == 0,
+        .isLuminaire = light.profile->isLuminaire,
+        .turn_rad = light.profile->turn_rad,
+        .angleScale = light.profile->angleScale,
+        .factor = light.profile->factor * light.profile->tilt,
+    };
+}
+
+}  // namespace
+
+LightingConstants lightingConstants(const Light& light, const glm::dmat4& worldFromLight) {
+    const AreaLight& shape = light.shape;
+    const glm::vec2 cone = light.cone_rad
+                               ? glm::vec2(std::cos((*light.cone_rad)[0]), std::cos((*light.cone_rad)[1]))
+                               : glm::vec2(-2);
+    return {
+        .lightFromWorld = glm::inverse(worldFromLight),
+        .emission = light.emission.value,
+        .halfAngle_rad = 0.5f * shape.angle_rad,
+        .halfSize_m = {0.5f * shape.width_m, 0.5f * shape.height_m},
+        .coneCosines = cone,
+        .radius_m = shape.radius_m,
+        .shape = int(shape.shape),
+        .isTwoSided = shape.twoSided,
+        .isPoint = light.emission.unit != Emission::Unit::nits && !hasSize(shape),
+        .isTextured = light.texture >= 0,
+        .planeTolerance = lightPlaneTolerance,
+        .profile = profileConstants(light),
+    };
+}
+
+}  // namespace penumbra::studio

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "studio/measure/point_set.h"
+#include "studio/scene/scene.h"
+
+namespace penumbra::studio {
+
+/// The parts as which a light is measured. What is seen of a light and what shines there go together only
+/// where all of it sends alike to a point. A rectangle with a profile does not, where it is seen large: it is
+/// cut into equal ones that the nearest of `points` sees a few degrees wide. All others are one part.
+std::vector<Light> partsOf(const Light& light, const std::vector<MeasuringPoint>& points);
+
+}  // namespace penumbra::studio
