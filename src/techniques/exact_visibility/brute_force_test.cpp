@@ -44,7 +44,7 @@ class BruteForceShaders {
                  "#define mayHideFromTile(bounds, sides, triangle) (!isInLightPlane(triangle))\n"
                  "#define isSmall(bounds, size, node) false\n"
                  "#define mayReachLight(bounds, boxMin, boxMax) true\n");
-        redefine("resolve.comp.glsl", "// What turns a box", "#define isAnyOpen(low, high) true\n");
+        redefine("blockers.glsl", "// What turns a box", "#define isAnyOpen(low, high) true\n");
         redefine("resolve.comp.glsl", "// The next node",
                  "#define mayBoxHide(projection, normal, apex, boxMin, boxMax) true\n");
     }

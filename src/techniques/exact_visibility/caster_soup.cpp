@@ -208,6 +208,28 @@ void CasterSoup::sendTop() {
     nodes_.write(texels, 0);
 }
 
+std::size_t CasterSoup::countNear(const glm::vec3& planePoint, const glm::vec3& normal,
+                                  float distance) const {
+    std::size_t count = 0;
+    for (const Entry& entry : entries_) {
+        const TreeBox& box = entry.boxes.front();
+        const glm::vec3 middle = 0.5f * (box.min + box.max), extent = 0.5f * (box.max - box.min);
+        const float reach = glm::dot(glm::abs(normal), extent) + distance;
+        if (!(std::abs(glm::dot(normal, middle - planePoint)) > reach)) count += entry.corners.size() / 3;
+    }
+    return count;
+}
+
+float CasterSoup::farthestFrom(const glm::vec3& point) const {
+    float farthest = 0;
+    for (const Entry& entry : entries_) {
+        const TreeBox& box = entry.boxes.front();
+        farthest =
+            std::max(farthest, glm::length(glm::max(glm::abs(box.min - point), glm::abs(box.max - point))));
+    }
+    return farthest;
+}
+
 void CasterSoup::bindTo(gl::Pass& pass) const {
     pass.bind("treeNodes", nodes_.ref()).bind("triangles", triangles_.ref());
     if (pass.has("maskedTriangles")) pass.bind("maskedTriangles", masked_.ref());

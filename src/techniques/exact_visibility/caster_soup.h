@@ -34,6 +34,11 @@ class CasterSoup {
     std::size_t nodeCount() const { return nodeCount_; }
     std::size_t triangleCount() const { return triangleCount_; }
     std::size_t maskedCount() const { return maskedCount_; }
+    /// Triangles of all casters that come nearer than `distance` to a plane, or cross it (scene axes,
+    /// metres).
+    std::size_t countNear(const glm::vec3& planePoint, const glm::vec3& normal, float distance) const;
+    /// The greatest distance of a caster from a point.
+    float farthestFrom(const glm::vec3& point) const;
     std::size_t size_bytes() const {
         return nodes_.size_bytes() + triangles_.size_bytes() + masked_.size_bytes();
     }

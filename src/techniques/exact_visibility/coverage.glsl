@@ -7,6 +7,12 @@
 // both ends: those left of one of them and not of the other. An end is computed from its edge's two corners alone and
 // in a way that does not depend on their order, so that triangles that share an edge leave no gap and do not overlap.
 
+// Written out and not as loops: drivers that count iterations (see the README) do not unroll all of this length. DO begins
+// with whether there is such a row.
+#define EACH_ROW(DO)                                                                                             \
+    DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7) DO(8) DO(9) DO(10) DO(11) DO(12) DO(13) DO(14) DO(15) DO(16) \
+    DO(17) DO(18) DO(19) DO(20) DO(21) DO(22) DO(23)
+
 // The edge's corners p and q are on different sides of the row's plane: y - j w has values of different signs there,
 // whose magnitudes are hp and hq. Result: x and w of the meeting point, times hp + hq.
 vec2 meet(vec3 p, vec3 q, float hp, float hq) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/gtc/matrix_access.hpp>
 #include <limits>
@@ -147,17 +148,30 @@ const gl::Program& ExactVisibility::resolveFor(const ResolveKind& kind) {
         .first->second;
 }
 
+/// How many triangles may take a look at each sample: those with holes, and those that may reach the light.
+/// Spheres may make any triangle one, flat lights those of casters that come near their planes: within a
+/// hundredth of the scene's size, for receivers up to a thousand times that away.
+std::size_t ExactVisibility::countSpecial(const ExactLight& light, LightShape shape) const {
+    if (shape == LightShape::distant) return soup_.maskedCount();
+    if (shape == LightShape::sphere) return soup_.triangleCount();
+    const float size = glm::distance(light.eye, light.center) + soup_.farthestFrom(light.center);
+    return soup_.maskedCount() + soup_.countNear(light.center, light.axisZ, 0.01f * size);
+}
+
 /// How many rounds a turn takes at most: every node visited, every triangle projected, every sample looked
-/// at.
-int ExactVisibility::roundsFor(int rows, LightShape shape) const {
-    const double samples = EXACT_MAX_ROWS * EXACT_MAX_ROWS;
-    const double perTriangle = 6 + 3 * rows;
-    const double perSpecialTriangle = perTriangle + samples;
-    // Spheres may make any triangle special, flat lights those of casters on both sides of their planes.
-    const double special = double(shape == LightShape::distant ? soup_.maskedCount() : soup_.triangleCount());
-    const double work = double(soup_.nodeCount()) + double(soup_.triangleCount()) * perTriangle +
-                        special * perSpecialTriangle + 32.0 * rows;
-    return int(std::min(1 + std::ceil(work / (roundWork_ - 1000)), 1e6));
+/// at, as resolve.comp.glsl counts them.
+int ExactVisibility::roundsFor(std::span<const LightLattice> lattices, std::size_t special) const {
+    constexpr double perNode = 2, perTriangle = 8, perRow = 32, perRound = 1000;
+    double rows = 0, samples = 0;
+    for (const LightLattice& lattice : lattices) {
+        double count = 0;
+        for (const unsigned row : lattice.validRows) count += std::popcount(row);
+        samples = std::max(samples, count);
+        rows = std::max(rows, double(lattice.validRows.size()));
+    }
+    const double work = double(soup_.nodeCount()) * perNode + double(soup_.triangleCount()) * perTriangle +
+                        double(special) * (rows + samples) + perRow * rows;
+    return int(std::min(1 + std::ceil(work / (roundWork_ - perRound)), 1e6));
 }
 
 void ExactVisibility::allocate(int width_px, int height_px, int rows, int rounds) {
@@ -205,11 +219,12 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
         std::max(int(maskTextures.size() + EXACT_GROUP_TEXTURES - 1) / EXACT_GROUP_TEXTURES, 1);
     const bool isCone = inputs.light.shape == LightShape::sphere || inputs.light.shape == LightShape::distant;
     const int turns = groups * int(lattices.size()) * (isCone ? 6 : 1);
-    const int turnRounds = roundsFor(int(rows), inputs.light.shape);
+    const ExactLight light = describeLight(inputs, lattices);
+    const int turnRounds = roundsFor(lattices, countSpecial(light, inputs.light.shape));
     allocate(out.width_px(), out.height_px(), int(rows), turns * turnRounds);
     const bool isUneven = isCone || weight_ != 0 || inputs.light.radianceTexture != 0;
     const gl::Program& resolve = resolveFor({int(rows), soup_.maskedCount() > 0, isUneven});
-    light_.write(describeLight(inputs, lattices));
+    light_.write(light);
     glm::dmat4 sceneFromWorld(1);
     sceneFromWorld[3] = glm::dvec4(-soup_.originWorld(), 1);
     view_.fill(inputs.view, sceneFromWorld);

@@ -58,7 +58,8 @@ class ExactVisibility final : public Technique {
 
     const gl::Program& resolveFor(const ResolveKind& kind);
     void allocate(int width_px, int height_px, int rows, int rounds);
-    int roundsFor(int rows, LightShape shape) const;
+    std::size_t countSpecial(const ExactLight& light, LightShape shape) const;
+    int roundsFor(std::span<const LightLattice> lattices, std::size_t special) const;
     const std::vector<LightLattice>& latticesFor(const AreaLight& light);
     ExactLight describeLight(const ShadowInputs& inputs, std::span<const LightLattice> lattices) const;
     std::vector<unsigned> sendMasks();

@@ -48,146 +48,34 @@ bool anyOfUs(bool value) { return value; }
 uint hidden[ROWS];
 // The same before any blocker is looked at.
 uint unlit[ROWS];
-
-// A triangle's corners, from the receiver.
-struct Blocker {
-    vec3 a, b, c;           // scene axes, metres
-    vec3 uvwA, uvwB, uvwC;  // as the patch has it
-    vec3 onA, onB, onC;     // lattice coordinates
-};
-
-vec3 uvwOf(Patch patch_, vec3 v) {
-    precise vec3 uvw = vec3(dot(patch_.rowU, v), dot(patch_.rowV, v), dot(patch_.rowW, v));
-    return uvw;
-}
-
-vec3 latticeOf(vec3 uvw, vec2 offset) {
-    precise vec3 lattice = vec3(uvw.x * light.latticeFromU + uvw.y * light.latticeFromV + uvw.z * offset, uvw.z);
-    return lattice;
-}
-
-Blocker loadBlocker(uint triangle, vec3 apex, Patch patch_, vec2 offset) {
-    Blocker blocker;
-    blocker.a = loadCorner(triangle, 0u) - apex;
-    blocker.b = loadCorner(triangle, 1u) - apex;
-    blocker.c = loadCorner(triangle, 2u) - apex;
-    blocker.uvwA = uvwOf(patch_, blocker.a);
-    blocker.uvwB = uvwOf(patch_, blocker.b);
-    blocker.uvwC = uvwOf(patch_, blocker.c);
-    blocker.onA = latticeOf(blocker.uvwA, offset);
-    blocker.onB = latticeOf(blocker.uvwB, offset);
-    blocker.onC = latticeOf(blocker.uvwC, offset);
-    return blocker;
-}
-
-// The columns between low.x and high.x of row j in which samples can still be seen, if the row is between low.y and high.y.
-uint openInRow(uint columns, vec2 low, vec2 high, int j) {
-    if (j >= ROWS) return 0u;
-    return float(j) >= low.y && float(j) <= high.y ? columns & ~hidden[min(j, ROWS - 1)] : 0u;
-}
-uint openInRows(uint columns, vec2 low, vec2 high, int j) {
-    return openInRow(columns, low, high, j) | openInRow(columns, low, high, j + 1) |
-           openInRow(columns, low, high, j + 2) | openInRow(columns, low, high, j + 3);
-}
-
-// Whether samples can still be seen within a rectangle of the lattice, made larger by the rounding of where edges meet rows.
-bool isAnyOpen(vec2 low, vec2 high) {
-    vec2 margin = 1e-5 * (max(abs(low), abs(high)) + 1.0);
-    low -= margin;
-    high += margin;
-    uint columns = bitsBefore(floor(high.x) + 1.0) & ~bitsBefore(low.x);
-    return (openInRows(columns, low, high, 0) | openInRows(columns, low, high, 4) | openInRows(columns, low, high, 8) |
-            openInRows(columns, low, high, 12) | openInRows(columns, low, high, 16) |
-            openInRows(columns, low, high, 20)) != 0u;
-}
-
-// Of coordinates: more than ten roundings.
-const float boxRounding = 2e-6;
-
-// What turns a box around blockers into a rectangle around the samples that they may hide.
-struct Projection {
-    vec3 x, y, w;  // lattice coordinates from a vector that begins at the receiver
-    vec3 rounding; // of x and y
-};
-
-Projection projectionOf(Patch patch_, vec2 offset) {
-    vec2 u = light.latticeFromU, v = light.latticeFromV;
-    vec3 sizeX = abs(patch_.rowU) * abs(u.x) + abs(patch_.rowV) * abs(v.x) + abs(patch_.rowW) * abs(offset.x);
-    vec3 sizeY = abs(patch_.rowU) * abs(u.y) + abs(patch_.rowV) * abs(v.y) + abs(patch_.rowW) * abs(offset.y);
-    return Projection(patch_.rowU * u.x + patch_.rowV * v.x + patch_.rowW * offset.x,
-                      patch_.rowU * u.y + patch_.rowV * v.y + patch_.rowW * offset.y, patch_.rowW,
-                      boxRounding * max(sizeX, sizeY));
-}
-
-// False only if nothing in the box hides a sample that can still be seen.
-bool mayBoxHide(Projection projection, vec3 normal, vec3 apex, vec3 boxMin, vec3 boxMax) {
-    vec3 low = boxMin - apex, high = boxMax - apex;
-    vec3 middle = 0.5 * (low + high), extent = 0.5 * (high - low);
-    vec3 size = max(abs(low), abs(high));
-    vec3 padded = extent + boxRounding * size;
-    float around = dot(projection.rounding, size);
-    vec3 from = vec3(dot(projection.x, middle), dot(projection.y, middle), dot(projection.w, middle));
-    vec3 to = vec3(dot(abs(projection.x), extent) + around, dot(abs(projection.y), extent) + around,
-                   dot(abs(projection.w), padded));
-    vec3 least = from - to, most = from + to;
-    bool isAbove = dot(normal, middle) + dot(abs(normal), padded) > 0.0;
-    bool reachesBehind = least.z <= 0.0;
-    vec2 inverse = 1.0 / vec2(max(least.z, 1e-30), max(most.z, 1e-30));
-    vec2 nearLow = mix(inverse.yy, inverse.xx, lessThan(least.xy, vec2(0.0)));
-    vec2 nearHigh = mix(inverse.xx, inverse.yy, lessThan(most.xy, vec2(0.0)));
-    return isAbove && most.z > 0.0 && (reachesBehind || isAnyOpen(least.xy * nearLow, most.xy * nearHigh));
-}
-
-// False only if it hides no sample that can still be seen: beside the window on one side, behind the receiver, below its
-// horizon, behind a flat light, between the samples.
-bool mayHide(Blocker t, vec3 normal) {
-    vec3 u = vec3(t.uvwA.x, t.uvwB.x, t.uvwC.x);
-    vec3 v = vec3(t.uvwA.y, t.uvwB.y, t.uvwC.y);
-    vec3 w = vec3(t.uvwA.z, t.uvwB.z, t.uvwC.z);
-    vec3 height = vec3(dot(normal, t.a), dot(normal, t.b), dot(normal, t.c));
-    bool beside = all(greaterThan(u, w)) || all(greaterThan(-u, w)) || all(greaterThan(v, w)) || all(greaterThan(-v, w));
-    bool behind = all(lessThanEqual(w, vec3(0.0))) || all(lessThanEqual(height, vec3(0.0)));
-    bool beyond = isFlat() && all(greaterThanEqual(w, vec3(rayEnd)));
-    bool reachesBehind = min(w.x, min(w.y, w.z)) <= 0.0;
-    vec3 inverse = 1.0 / max(w, 1e-30);
-    vec2 a = t.onA.xy * inverse.x, b = t.onB.xy * inverse.y, c = t.onC.xy * inverse.z;
-    return !(beside || behind || beyond) && (reachesBehind || isAnyOpen(min(a, min(b, c)), max(a, max(b, c))));
-}
-
-vec2 uvOf(vec2 ij, vec2 offset) {
-    vec2 p = ij - offset;
-    return p.x * light.uvFromI + p.y * light.uvFromJ;
-}
-
-// What one triangle hides, row by row.
+// What one triangle hides.
 uint spot[ROWS];
 
-// Written out and not as a loop: drivers that count iterations (see the README) do not unroll one of this length.
-void projectRow(vec3 a, vec3 b, vec3 c, int j) {
-    if (j < ROWS) spot[min(j, ROWS - 1)] = hiddenInRow(a, b, c, float(j));
-}
-void projectRows(vec3 a, vec3 b, vec3 c, int j) {
-    projectRow(a, b, c, j);
-    projectRow(a, b, c, j + 1);
-    projectRow(a, b, c, j + 2);
-    projectRow(a, b, c, j + 3);
+#include "src/techniques/exact_visibility/blockers.glsl"
+#include "src/techniques/exact_visibility/sums.glsl"
+#include "src/techniques/exact_visibility/progress.glsl"
+
+void projectRow(Blocker t, int j) {
+    if (j < ROWS) spot[min(j, ROWS - 1)] = hiddenInRow(t.onA, t.onB, t.onC, float(j));
 }
 void project(Blocker t) {
-    projectRows(t.onA, t.onB, t.onC, 0);
-    projectRows(t.onA, t.onB, t.onC, 4);
-    projectRows(t.onA, t.onB, t.onC, 8);
-    projectRows(t.onA, t.onB, t.onC, 12);
-    projectRows(t.onA, t.onB, t.onC, 16);
-    projectRows(t.onA, t.onB, t.onC, 20);
+#define PROJECT_ROW(j) projectRow(t, j);
+    EACH_ROW(PROJECT_ROW)
 }
 
+void hideRow(bool counts, int j) {
+    if (j < ROWS) hidden[min(j, ROWS - 1)] |= counts ? spot[min(j, ROWS - 1)] : 0u;
+}
 void hide(bool counts) {
-    for (int j = 0; j < ROWS; ++j) hidden[j] |= counts ? spot[j] : 0u;
+#define HIDE_ROW(j) hideRow(counts, j);
+    EACH_ROW(HIDE_ROW)
 }
 
+uint hiddenOfRow(int j) { return j < ROWS ? hidden[min(j, ROWS - 1)] : 0xffffffffu; }
 bool isAllHidden() {
     uint all_ = 0xffffffffu;
-    for (int j = 0; j < ROWS; ++j) all_ &= hidden[j];
+#define AND_ROW(j) all_ &= hiddenOfRow(j);
+    EACH_ROW(AND_ROW)
     return all_ == 0xffffffffu;
 }
 
@@ -255,89 +143,6 @@ void beginWith(Patch patch_, vec3 normal, int lattice, vec2 offset, vec3 toSurfa
     }
 }
 
-struct Sums {
-    vec3 seen, whole;
-    float borders, samples;  // neighbouring samples of which one is seen and one is not; samples above the horizon
-};
-
-vec3 weightOf(SeenLight seen, Patch patch_, vec3 normal, vec2 uv, int index) {
-    vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
-    float length2 = dot(direction, direction);
-    vec3 weight = vec3(1.0);
-    if (isFlat()) {
-        // cos(receiver) cos(light) / distance^2, up to a factor that is the same for all samples.
-        if (light.isWeightedByIrradiance) weight *= max(dot(normal, direction), 0.0) / (length2 * length2) * dot(seen.toCenter, seen.toCenter);
-        if (light.emitter.isTextured) {
-            // Windows fitted to the horizon have samples of their own, which stand for less.
-            bool isWhole = patch_.lightAcross.x == 1.0 && patch_.lightAlong.y == 1.0;
-            vec3 point = emitted(textureLod(radiance, 0.5 * onLight(patch_, uv) + 0.5, 0.0).rgb);
-            weight *= isWhole ? weights[index].rgb : point;
-        }
-    } else {
-        weight *= coneWeight(seen, uv, direction);
-        if (light.isWeightedByIrradiance) weight *= max(dot(normal, direction), 0.0) * inversesqrt(length2);
-    }
-    return weight;
-}
-
-void addUp(inout Sums sums, SeenLight seen, Patch patch_, vec3 normal, int lattice, vec2 offset, bool counts) {
-#ifdef WITH_WEIGHTS
-    const bool uneven = true;
-    for (int j = 0; j < ROWS; ++j) {
-        for (uint bits = counts ? ~unlit[j] : 0u; bits != 0u; bits &= bits - 1u) {
-            int i = findLSB(bits);
-            vec2 uv = uvOf(vec2(i, j), offset);
-            vec3 weight = weightOf(seen, patch_, normal, uv, weightIndex(lattice, i, j));
-            sums.whole += weight;
-            sums.seen += (hidden[j] >> uint(i) & 1u) == 0u ? weight : vec3(0.0);
-        }
-    }
-#else
-    const bool uneven = false;
-#endif
-    for (int j = 0; j < ROWS; ++j) {
-        uint seenRow = counts ? ~hidden[j] : 0u, wholeRow = counts ? ~unlit[j] : 0u;
-        if (!uneven) {
-            sums.seen += vec3(bitCount(seenRow));
-            sums.whole += vec3(bitCount(wholeRow));
-        }
-        sums.samples += float(bitCount(wholeRow));
-        sums.borders += float(bitCount((seenRow ^ (seenRow >> 1)) & wholeRow & (wholeRow >> 1)));
-        if (j > 0) sums.borders += float(bitCount((seenRow ^ ~hidden[j - 1]) & wholeRow & ~unlit[j - 1]));
-    }
-}
-
-// A place in the work of a receiver. The tile's list is gone through from the plain nodes to the special ones, each with
-// all below it, and then what of the tree did not fit into it.
-struct Progress {
-    int part;   // which group, of which lattice, of which patch
-    uint next;  // of the list; one more than it has where we are beyond it
-    Walk walk;  // below a node of the list: returnTo is where that ends
-};
-
-Progress startOf(int part, uint next) { return Progress(part, next, Walk(0u, 0u)); }
-
-bool isBetweenNodes(Progress progress) { return progress.walk.node == progress.walk.returnTo; }
-bool isPlainOver(Progress progress, TileList list) {
-    return progress.next > list.plain || (progress.next == list.plain && isBetweenNodes(progress));
-}
-bool isListOver(Progress progress, TileList list) { return progress.next > list.plain + list.special; }
-bool isOver(Progress progress, TileList list) {
-    return isListOver(progress, list) && progress.walk.node == EXACT_END;
-}
-
-// To what did not fit into the list, where that is at its end.
-Progress leaveList(Progress progress, TileList list) {
-    if (progress.next != list.plain + list.special || !isBetweenNodes(progress)) return progress;
-    return Progress(progress.part, progress.next + 1u, Walk(list.stoppedAt, list.returnTo));
-}
-
-// Triangles of a leaf that have not been looked at.
-struct Leaf {
-    uint next, end;
-    bool hasHoles;
-};
-
 void save(uint base, Progress progress, Sums sums) {
     states[base] = uint(progress.part) + 1u;
     states[base + 1u] = progress.next;
@@ -394,6 +199,9 @@ Shaft shaftFrom(vec3 apex) {
     return shaft;
 }
 
+// Eight in a row, which is what software runs together, stand in 4 x 2 pixels: closer to each other than in 8 x 1.
+ivec2 placeInTile(ivec2 thread) { return ivec2((thread.x & 3) + 4 * (thread.y & 1), (thread.x >> 2) + (thread.y & 6)); }
+
 // The receivers together, and the light as they see it.
 struct Look {
     Projection projection;
@@ -436,7 +244,7 @@ void main() {
     if (place >= busy.count) return;
     uint tileIndex = busyTiles[place];
     ivec2 tile = ivec2(int(tileIndex) % light.tilesAcross, int(tileIndex) / light.tilesAcross);
-    ivec2 pixel = 8 * tile + ivec2(gl_LocalInvocationID.xy);
+    ivec2 pixel = 8 * tile + placeInTile(ivec2(gl_LocalInvocationID.xy));
     bool inside = all(lessThan(pixel, view.size_px));
     uint base = uint(min(pixel.y, view.size_px.y - 1) * view.size_px.x + min(pixel.x, view.size_px.x - 1)) * STATE_WORDS;
     TileList list = tileLists[tileIndex];
@@ -499,7 +307,7 @@ void main() {
             project(blocker);
             hide(counts);
             isDark = isAllHidden();
-            work += 2 + 2 * ROWS;
+            work += 2;
         }
 
         // Special candidates, then whatever did not fit into the lists.
@@ -526,7 +334,7 @@ void main() {
             hide(counts && plain);
             hideSamples(blocker, seen, patch_, offset, triangle, leaf.hasHoles, counts && !plain);
             isDark = isAllHidden();
-            work += 4 + 2 * ROWS;
+            work += 4;
         }
         isPaused = !isOver(progress, list) && anyOfUs(!isDark);
         if (isPaused) break;
