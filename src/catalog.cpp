@@ -73,6 +73,13 @@ constexpr std::array entries = {
           exact_visibility::ExactVisibility::promises},
 };
 
+/// Null where there is none of that name.
+const Entry* entryOf(std::string_view technique) {
+    const auto found =
+        std::ranges::find(entries, technique, [](const Entry& entry) { return entry.info.name; });
+    return found == entries.end() ? nullptr : &*found;
+}
+
 std::unique_ptr<Technique> makeAutomatic(Device& device) {
     std::vector<Automatic::Candidate> candidates;
     for (const Entry& entry : entries) {
@@ -100,15 +107,13 @@ std::span<const TechniqueInfo> techniqueCatalog() {
 }
 
 float rampRmseOf(std::string_view technique) {
-    const auto found =
-        std::ranges::find(entries, technique, [](const Entry& entry) { return entry.info.name; });
-    return found == entries.end() ? rampRmseOfAutomatic : found->rampRmse;
+    const Entry* const entry = entryOf(technique);
+    return entry ? entry->rampRmse : rampRmseOfAutomatic;
 }
 
 std::span<const Promise> promisesOf(std::string_view technique) {
-    const auto found =
-        std::ranges::find(entries, technique, [](const Entry& entry) { return entry.info.name; });
-    return found == entries.end() ? std::span<const Promise>() : found->promises;
+    const Entry* const entry = entryOf(technique);
+    return entry ? entry->promises : std::span<const Promise>();
 }
 
 std::optional<Choice> choiceFor(double maxError, std::string_view technique) {
