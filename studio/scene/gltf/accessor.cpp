@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 
+#include "studio/scene/gltf/extensions.h"
 #include "studio/scene/gltf/meshopt_view.h"
 
 namespace penumbra::studio::gltf {
@@ -179,7 +180,7 @@ void Accessors::readViews(const JsonView& root, Budget& budget) {
         if (stride % 4 != 0) json.at("byteStride").fail("must be a multiple of 4");
         BufferView& view = views_.emplace_back();
         view.stride_bytes = std::size_t(stride);
-        if (const auto compressed = json.extension("EXT_meshopt_compression")) {
+        if (const auto compressed = extensionOf(json, "EXT_meshopt_compression")) {
             // The buffer that the view itself names is for those who cannot read the other, and may have no
             // data.
             json.at("buffer").asIndex(buffers_.size());

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "studio/scene/gltf/budget.h"
-#include "studio/scene/gltf/json_view.h"
+#include "studio/scene/gltf/place_error.h"
 
 namespace penumbra::studio::gltf {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "studio/scene/gltf/json_view.h"
+#include "studio/scene/gltf/place_error.h"
 
 namespace penumbra::studio::gltf {
 

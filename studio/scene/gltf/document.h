@@ -11,6 +11,7 @@
 
 #include "studio/scene/gltf/asset_files.h"
 #include "studio/scene/gltf/budget.h"
+#include "studio/scene/gltf/place_error.h"
 
 namespace penumbra::studio::gltf {
 
@@ -18,7 +19,9 @@ struct Document {
     nlohmann::json json;
     std::optional<Bytes> binaryChunk;  ///< a GLB's second chunk
 
-    JsonView root() const { return {json, ""}; }
+    PointerPlaces places;
+
+    JsonView root() const { return {json, "", places}; }
 };
 
 /// Reads a .gltf or .glb (told apart by content), checks the container and the version.

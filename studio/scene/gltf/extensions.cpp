@@ -89,4 +89,14 @@ void checkExtensions(const JsonView& root, Scene& scene) {
         }
 }
 
+std::optional<JsonView> extensionOf(const JsonView& object, std::string_view name) {
+    const auto extensions = object.find("extensions");
+    return extensions ? extensions->find(name) : std::nullopt;
+}
+
+std::optional<JsonView> penumbraExtrasOf(const JsonView& object) {
+    const auto extras = object.find("extras");
+    return extras && extras->isObject() ? extras->find("penumbra") : std::nullopt;
+}
+
 }  // namespace penumbra::studio::gltf

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "studio/errors.h"
+#include "studio/scene/gltf/extensions.h"
 #include "studio/scene/profiles/luminaire.h"
 #include "studio/scene/profiles/profile_file.h"
 
@@ -44,13 +45,13 @@ std::shared_ptr<const LightProfile> loadProfile(const JsonView& json, const Acce
 std::vector<PlacedLight> loadIesLights(const JsonView& root, const Hierarchy& hierarchy,
                                        const Accessors& accessors, const std::filesystem::path& folder,
                                        Budget& budget, Scene& scene) {
-    const auto atRoot = root.extension("EXT_lights_ies");
+    const auto atRoot = extensionOf(root, "EXT_lights_ies");
     const std::vector<JsonView> profiles = atRoot ? atRoot->list("lights") : std::vector<JsonView>{};
     std::map<int, std::shared_ptr<const LightProfile>> loaded;
     std::vector<PlacedLight> lights;
     const std::vector<JsonView> nodes = root.list("nodes");
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const auto json = nodes[i].extension("EXT_lights_ies");
+        const auto json = extensionOf(nodes[i], "EXT_lights_ies");
         if (!json || !json->has("light")) continue;
         const int index = json->at("light").asIndex(profiles.size());
         if (!hierarchy.nodes[i].inScene || !hierarchy.nodes[i].visible) continue;
@@ -62,7 +63,7 @@ std::vector<PlacedLight> loadIesLights(const JsonView& root, const Hierarchy& hi
         const glm::vec3 color = json->vec3("color", glm::vec3(1));
         if (glm::any(glm::lessThan(color, glm::vec3(0)))) json->at("color").fail("must not be negative");
         constexpr float most = std::numeric_limits<float>::max();
-        const glm::vec3 emission = color * json->numberWithin("multiplier", 1, 0, most);
+        const glm::vec3 emission = color * json->number("multiplier", 1, {0, most});
         if (!(glm::dot(emission, glm::vec3(1)) <= most)) json->fail("is too bright");
         Light light{.name = profiles[std::size_t(index)].string("name")};
         if (light.name.empty()) light.name = hierarchy.nodes[i].name;

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <set>
 
+#include "studio/scene/gltf/extensions.h"
 #include "studio/scene/gltf/unit_vector.h"
 #include "studio/scene/lights/light_units.h"
 #include "studio/scene/profiles/luminaire.h"
@@ -37,13 +38,13 @@ Emission emission(const JsonView& json, Emission::Unit unit, float amount) {
 // The node's own word goes before the light's.
 float extrasNumber(const JsonView& node, const JsonView& light, const char* key, float max) {
     for (const JsonView& json : {node, light})
-        if (const auto extras = json.penumbraExtras(); extras && extras->has(key))
-            return extras->numberWithin(key, 0, 0, max);
+        if (const auto extras = penumbraExtrasOf(json); extras && extras->has(key))
+            return extras->number(key, 0, {0, max});
     return 0;
 }
 
 void loadPoint(const JsonView& json, float radius_m, Light& light) {
-    const float intensity_cd = json.numberWithin("intensity", 1, 0, maxNumber);
+    const float intensity_cd = json.number("intensity", 1, {0, maxNumber});
     light.shape.radius_m = radius_m;
     light.emission = radius_m > 0 ? emission(json, Emission::Unit::nits,
                                              radianceFromIntensity_nits(intensity_cd, radius_m))
@@ -63,14 +64,14 @@ Light loadPunctual(const JsonView& json, const JsonView& node) {
         // blend of 0.
         constexpr float rounding = 1.0001f;
         const JsonView spot = json.at("spot");
-        const float outer = spot.numberWithin("outerConeAngle", pi / 4, 0, pi / 2 * rounding);
-        const float inner = spot.numberWithin("innerConeAngle", 0, 0, pi / 2 * rounding);
+        const float outer = spot.number("outerConeAngle", pi / 4, {0, pi / 2 * rounding});
+        const float inner = spot.number("innerConeAngle", 0, {0, pi / 2 * rounding});
         if (inner > outer * rounding) spot.fail("innerConeAngle is larger than outerConeAngle");
         light.cone_rad = {std::min({inner, outer, pi / 2}), std::min(outer, pi / 2)};
     } else if (type == "directional") {
         light.shape.shape = LightShape::distant;
         light.shape.angle_rad = glm::radians(extrasNumber(node, json, "angle", 180));
-        const float illuminance_lux = json.numberWithin("intensity", 1, 0, maxNumber);
+        const float illuminance_lux = json.number("intensity", 1, {0, maxNumber});
         light.emission = light.shape.angle_rad > 0
                              ? emission(json, Emission::Unit::nits,
                                         radianceFromIlluminance_nits(illuminance_lux, light.shape.angle_rad))
@@ -85,11 +86,11 @@ Light loadPunctual(const JsonView& json, const JsonView& node) {
 // `intensity` is the surface's luminance.
 Light loadArea(const JsonView& json, float defaultIntensity_nits) {
     Light light{.name = json.string("name")};
-    const float size_m = json.numberWithin("size", 1, 0, maxNumber);
+    const float size_m = json.number("size", 1, {0, maxNumber});
     const std::string type = json.at("type").asString();
     if (type == "rect") {
         const auto rect = json.find("rect");
-        const float aspect = rect ? rect->numberWithin("aspect", 1, 0, maxNumber) : 1;
+        const float aspect = rect ? rect->number("aspect", 1, {0, maxNumber}) : 1;
         light.shape.shape = LightShape::rect;
         light.shape.width_m = aspect * size_m;
         light.shape.height_m = size_m;
@@ -100,8 +101,8 @@ Light loadArea(const JsonView& json, float defaultIntensity_nits) {
     } else {
         json.at("type").fail(fmt::format("'{}' is not rect or disk", type));
     }
-    light.emission = emission(json, Emission::Unit::nits,
-                              json.numberWithin("intensity", defaultIntensity_nits, 0, maxNumber));
+    light.emission =
+        emission(json, Emission::Unit::nits, json.number("intensity", defaultIntensity_nits, {0, maxNumber}));
     return light;
 }
 
@@ -109,11 +110,11 @@ Light loadArea(const JsonView& json, float defaultIntensity_nits) {
 template <class Load>
 void loadEach(const JsonView& root, const Hierarchy& hierarchy, const std::string& extension, LightSize size,
               Load load, std::vector<PlacedLight>& placed, Scene& scene) {
-    const auto atRoot = root.extension(extension);
+    const auto atRoot = extensionOf(root, extension);
     const std::vector<JsonView> lights = atRoot ? atRoot->list("lights") : std::vector<JsonView>{};
     const std::vector<JsonView> nodes = root.list("nodes");
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const auto reference = nodes[i].extension(extension);
+        const auto reference = extensionOf(nodes[i], extension);
         if (!reference || !reference->has("light")) continue;
         const JsonView& json = lights[std::size_t(reference->at("light").asIndex(lights.size()))];
         const Node& node = hierarchy.nodes[i];
@@ -134,7 +135,7 @@ void loadEach(const JsonView& root, const Hierarchy& hierarchy, const std::strin
 float defaultAreaIntensity_nits(const JsonView& root, Scene& scene) {
     constexpr float ofTheDraft = 1000, ofBabylon = 1;
     const std::string generator = root.at("asset").string("generator");
-    if (!generator.starts_with("Babylon.js") || !root.extension("EXT_lights_area")) return ofTheDraft;
+    if (!generator.starts_with("Babylon.js") || !extensionOf(root, "EXT_lights_area")) return ofTheDraft;
     scene.warnings.push_back(fmt::format(
         "/asset/generator: {} leaves out an intensity of 1 in EXT_lights_area; it is taken for 1 nit",
         generator));
@@ -159,7 +160,7 @@ void tellApart(std::vector<PlacedLight>& lights, const Hierarchy& hierarchy) {
 }
 
 void nameRanges(const JsonView& root, Scene& scene) {
-    const auto atRoot = root.extension("KHR_lights_punctual");
+    const auto atRoot = extensionOf(root, "KHR_lights_punctual");
     if (!atRoot) return;
     const std::vector<JsonView> lights = atRoot->list("lights");
     const auto count =

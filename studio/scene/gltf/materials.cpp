@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "studio/scene/gltf/extensions.h"
 #include "studio/scene/gltf/picture_decode.h"
 
 namespace penumbra::studio::gltf {
@@ -41,7 +42,7 @@ glm::mat3 uvTransform(const JsonView& json) {
 UvSource loadUvSource(const JsonView& textureInfo) {
     constexpr int maxSets = 1000;
     UvSource source{.texCoord = int(textureInfo.integer("texCoord", 0, 0, maxSets))};
-    if (const auto transform = textureInfo.extension("KHR_texture_transform")) {
+    if (const auto transform = extensionOf(textureInfo, "KHR_texture_transform")) {
         source.texCoord = int(transform->integer("texCoord", source.texCoord, 0, maxSets));
         source.transform = uvTransform(*transform);
     }
@@ -62,7 +63,8 @@ class TextureLoader {
         for (const JsonView& json : textures_) {
             json.index("sampler", samplers_.size());
             json.index("source", images_.size());
-            if (const auto webp = json.extension("EXT_texture_webp")) webp->index("source", images_.size());
+            if (const auto webp = extensionOf(json, "EXT_texture_webp"))
+                webp->index("source", images_.size());
         }
         for (const JsonView& json : images_)
             if (json.has("uri") == (json.index("bufferView", accessors_.viewCount()).has_value()))
@@ -76,7 +78,7 @@ class TextureLoader {
         const JsonView& json = textures_[std::size_t(index)];
         const auto [known, isNew] = sceneTextures_.try_emplace(index, -1);
         if (!isNew) return known->second;
-        const auto webp = json.extension("EXT_texture_webp");
+        const auto webp = extensionOf(json, "EXT_texture_webp");
         auto source = webp ? webp->index("source", images_.size()) : std::nullopt;
         if (!source) source = json.index("source", images_.size());
         if (!source) return leaveOut(json, "it has no picture in a format that is read here");
@@ -151,8 +153,8 @@ bool hasHoles(const Picture& picture, float factor) {
 
 // A material of which one can see through all or parts becomes glass, or a mask.
 void makeGlass(const JsonView& json, AlphaMode mode, const Scene& scene, Material& material) {
-    const auto transmission = json.extension("KHR_materials_transmission");
-    if (transmission && transmission->numberWithin("transmissionFactor", 0, 0, 1) > leastOfASolid) {
+    const auto transmission = extensionOf(json, "KHR_materials_transmission");
+    if (transmission && transmission->number("transmissionFactor", 0, {0, 1}) > leastOfASolid) {
         material.glass = glm::vec3(material.baseColor);
     } else if (mode == AlphaMode::blend && material.baseColor.a < leastOfASolid) {
         material.glass = glm::mix(glm::vec3(1), glm::vec3(material.baseColor), material.baseColor.a);
@@ -169,9 +171,9 @@ void makeGlass(const JsonView& json, AlphaMode mode, const Scene& scene, Materia
 void loadEmission(const JsonView& json, TextureLoader& textures, Material& material,
                   std::optional<UvSource>& uvSource, std::vector<std::string>& warnings) {
     constexpr float maxStrength = 1e9f;
-    const auto strength = json.extension("KHR_materials_emissive_strength");
+    const auto strength = extensionOf(json, "KHR_materials_emissive_strength");
     material.emission_nits = glm::clamp(json.vec3("emissiveFactor", glm::vec3(0)), 0.0f, 1.0f) *
-                             (strength ? strength->numberWithin("emissiveStrength", 1, 0, maxStrength) : 1);
+                             (strength ? strength->number("emissiveStrength", 1, {0, maxStrength}) : 1);
     const auto info = json.find("emissiveTexture");
     if (!info) return;
     const int index = info->at("index").asIndex(textures.size());
@@ -208,9 +210,9 @@ std::vector<std::optional<UvSource>> loadMaterials(const JsonView& root, const A
         const AlphaMode mode = loadAlphaMode(json);
         Material material{.name = json.string("name"),
                           .alpha = mode == AlphaMode::mask ? Material::Alpha::mask : Material::Alpha::opaque,
-                          .alphaCutoff = json.numberWithin("alphaCutoff", 0.5f, 0, 1e6f),
+                          .alphaCutoff = json.number("alphaCutoff", 0.5f, {0, 1e6f}),
                           .doubleSided = json.boolean("doubleSided", false),
-                          .unlit = json.extension("KHR_materials_unlit").has_value()};
+                          .unlit = extensionOf(json, "KHR_materials_unlit").has_value()};
         std::optional<UvSource>& uvSource = uvSources.emplace_back();
         if (const auto pbr = json.find("pbrMetallicRoughness")) {
             if (const auto factor = pbr->find("baseColorFactor")) {

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "studio/scene/gltf/draco_mesh.h"
+#include "studio/scene/gltf/extensions.h"
 #include "studio/scene/gltf/unit_vector.h"
 #include "studio/scene/gltf/vertex_colors.h"
 #include "studio/scene/weld.h"
@@ -58,7 +59,7 @@ class PrimitiveLoader {
           vertexColors_(vertexColors),
           budget_(budget),
           scene_(scene) {
-        if (const auto compressed = json.extension("KHR_draco_mesh_compression"))
+        if (const auto compressed = extensionOf(json, "KHR_draco_mesh_compression"))
             draco_.emplace(json, *compressed, accessors, budget);
         for (const std::string& name : attributes_.keys()) {
             const Accessor& accessor = accessors_[attributes_.at(name).asIndex(accessors_.size())];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/scene/gltf/nodes.h"
+#include "studio/scene/gltf/extensions.h"
 
 #include <fmt/format.h>
 
@@ -49,9 +50,9 @@ Node loadNode(const JsonView& json, std::size_t index, std::size_t skinCount,
         if (node.mesh < 0) weights->fail("has no mesh");
         node.weights = weights->asNumbers(meshes[std::size_t(node.mesh)].targetCount);
     }
-    if (const auto visibility = json.extension("KHR_node_visibility"))
+    if (const auto visibility = extensionOf(json, "KHR_node_visibility"))
         node.visible = visibility->boolean("visible", true);
-    if (const auto extras = json.penumbraExtras()) {
+    if (const auto extras = penumbraExtrasOf(json)) {
         if (extras->has("casts")) node.casts = extras->boolean("casts", true);
         node.receives = extras->boolean("receives", true);
     }
@@ -224,7 +225,7 @@ Hierarchy loadHierarchy(const JsonView& root, const Accessors& accessors,
         hierarchy.skins.push_back(loadSkin(json, jsons.size(), accessors, budget));
     checkSkins(hierarchy, meshes, scene);
     for (std::size_t i = 0; i < jsons.size(); ++i)
-        if (const auto json = jsons[i].extension("EXT_mesh_gpu_instancing")) {
+        if (const auto json = extensionOf(jsons[i], "EXT_mesh_gpu_instancing")) {
             if (hierarchy.nodes[i].mesh < 0) continue;
             if (hierarchy.nodes[i].skin >= 0)
                 json->fail("its mesh has a skin, which alone says where it is: there are no copies of it");

@@ -10,10 +10,12 @@
 #include <set>
 #include <span>
 
+#include "studio/errors.h"
+#include "studio/scene/json/lined_json.h"
 #include "studio/scene/lights/black_body.h"
+#include "studio/scene/lights/nearest_name.h"
 #include "studio/scene/lights/sidecar.h"
 #include "studio/scene/lights/sidecar_place.h"
-#include "studio/scene/lights/sidecar_reader.h"
 #include "studio/scene/profiles/profile_file.h"
 #include "studio/scene/sun/sun.h"
 
@@ -70,16 +72,15 @@ constexpr std::array<LightType, 6> lightTypes{{
     {"SunLight", Source::sun, LightShape::distant, {sunKeys}},
 }};
 
-const LightType& readType(const SidecarReader& reader, const LocatedJson& object) {
-    const LocatedJson* type = member(object, "type");
+const LightType& readType(const JsonView& object) {
     std::vector<std::string_view> names;
     for (const LightType& known : lightTypes) names.push_back(known.name);
-    if (!type)
-        reader.fail(object.line, fmt::format("a light needs a 'type': one of {}", fmt::join(names, ", ")));
-    const std::string& name = reader.text(*type, "'type'");
+    const auto type = object.find("type");
+    if (!type) object.fail(fmt::format("a light needs a 'type': one of {}", fmt::join(names, ", ")));
+    const std::string name = type->asName();
     const auto found = std::ranges::find(lightTypes, name, &LightType::name);
     if (found == lightTypes.end())
-        reader.fail(type->line, fmt::format("unknown type '{}' of light{}", name, didYouMean(name, names)));
+        type->fail(fmt::format("unknown type '{}' of light{}", name, didYouMean(name, names)));
     return *found;
 }
 
@@ -102,33 +103,31 @@ float sizeFactor(const AreaLight& shape) {
 }
 
 /// The colour times 2^exposure and `amount`.
-glm::vec3 readStrength(const SidecarReader& reader, const LocatedJson& object, float amount) {
-    const LocatedJson* color = member(object, "color");
-    glm::vec3 strength = color ? reader.vector<3>(*color, "'color'", atLeastZero) : glm::vec3(1);
-    const float temperature_K = reader.number(object, "colorTemperature", 6500, {1000, 25000});
-    if (reader.boolean(object, "enableColorTemperature", false)) strength *= blackBodyColor(temperature_K);
-    strength *= amount * std::exp2(reader.number(object, "exposure", 0, {-100, 100}));
+glm::vec3 readStrength(const JsonView& object, float amount) {
+    glm::vec3 strength = object.vec3("color", glm::vec3(1), atLeastZero);
+    const float temperature_K = object.number("colorTemperature", 6500, {1000, 25000});
+    if (object.boolean("enableColorTemperature", false)) strength *= blackBodyColor(temperature_K);
+    strength *= amount * std::exp2(object.number("exposure", 0, {-100, 100}));
     return strength;
 }
 
-void requireFinite(const SidecarReader& reader, const LocatedJson& object, const glm::vec3& value) {
+void requireFinite(const JsonView& object, const glm::vec3& value) {
     for (int channel = 0; channel < 3; ++channel)
         if (!std::isfinite(value[channel]))
-            reader.fail(object.line,
-                        "the light is too strong: intensity x 2^exposure x color must stay below 3.4e38");
+            object.fail("the light is too strong: intensity x 2^exposure x color must stay below 3.4e38");
 }
 
 /// Luminance from intensity, exposure and colour. A light without size has none: there `intensity` is what an
 /// area light shrinking with `normalize` tends to, in candela (a quarter for a sphere, whose area is four
 /// times what it shows) or lux; and without `normalize`, which would leave darkness, it is simply candela or
 /// lux.
-Emission readEmission(const SidecarReader& reader, const LocatedJson& object, const AreaLight& shape) {
+Emission readEmission(const JsonView& object, const AreaLight& shape) {
     const bool distant = shape.shape == LightShape::distant;
-    const float intensity = reader.number(object, "intensity", distant ? 50000.0f : 1.0f, atLeastZero);
-    const bool normalized = reader.boolean(object, "normalize", false);
+    const float intensity = object.number("intensity", distant ? 50000.0f : 1.0f, atLeastZero);
+    const bool normalized = object.boolean("normalize", false);
 
     Emission emission;
-    emission.value = readStrength(reader, object, intensity);
+    emission.value = readStrength(object, intensity);
     const float area = sizeFactor(shape);
     if (area > 0) {
         if (normalized) emission.value /= area;
@@ -136,36 +135,36 @@ Emission readEmission(const SidecarReader& reader, const LocatedJson& object, co
         emission.unit = distant ? Emission::Unit::lux : Emission::Unit::candela;
         if (normalized && shape.shape == LightShape::sphere) emission.value *= 0.25f;
     }
-    requireFinite(reader, object, emission.value);
+    requireFinite(object, emission.value);
     return emission;
 }
 
 /// UsdLux: from full light at (1 - softness) angle to none at the angle.
-std::optional<std::array<float, 2>> readCone(const SidecarReader& reader, const LocatedJson& object) {
-    if (!member(object, "shaping:cone:angle") && !member(object, "shaping:cone:softness")) return {};
-    const float outer_rad = glm::radians(reader.number(object, "shaping:cone:angle", 90, {0, 180}));
-    const float soft = reader.number(object, "shaping:cone:softness", 0, {0, 1});
+std::optional<std::array<float, 2>> readCone(const JsonView& object) {
+    if (!object.has("shaping:cone:angle") && !object.has("shaping:cone:softness")) return {};
+    const float outer_rad = glm::radians(object.number("shaping:cone:angle", 90, {0, 180}));
+    const float soft = object.number("shaping:cone:softness", 0, {0, 1});
     return std::array{(1 - soft) * outer_rad, outer_rad};
 }
 
-SidecarProfile readProfileFile(const SidecarReader& reader, const LocatedJson& file, std::string_view key) {
+SidecarProfile readProfileFile(const LinedJson& document, const JsonView& file, std::string_view key) {
     SidecarProfile profile;
-    profile.file = reader.text(file, fmt::format("'{}'", key));
-    profile.line = file.line;
+    profile.file = file.asName();
+    profile.line = document.lineOf(file);
     if (!isProfileName(profile.file))
-        reader.fail(file.line, fmt::format("'{}' must name an LM-63 (.ies) or EULUMDAT (.ldt) file, not '{}'",
-                                           key, profile.file));
+        file.fail(fmt::format("'{}' must name an LM-63 (.ies) or EULUMDAT (.ldt) file, not '{}'", key,
+                              profile.file));
     return profile;
 }
 
-std::optional<SidecarProfile> readShapingProfile(const SidecarReader& reader, const LocatedJson& object) {
-    const LocatedJson* file = member(object, "shaping:ies:file");
+std::optional<SidecarProfile> readShapingProfile(const LinedJson& document, const JsonView& object) {
+    const auto file = object.find("shaping:ies:file");
     // Read even where there is no file, so that what is wrong with them is said.
-    const float angleScale = reader.number(object, "shaping:ies:angleScale", 0, {-10, 10});
-    const bool normalize = reader.boolean(object, "shaping:ies:normalize", false);
-    const float turn_deg = reader.number(object, "shaping:ies:turn", 0, {-360, 360});
+    const float angleScale = object.number("shaping:ies:angleScale", 0, {-10, 10});
+    const bool normalize = object.boolean("shaping:ies:normalize", false);
+    const float turn_deg = object.number("shaping:ies:turn", 0, {-360, 360});
     if (!file) return {};
-    SidecarProfile profile = readProfileFile(reader, *file, "shaping:ies:file");
+    SidecarProfile profile = readProfileFile(document, *file, "shaping:ies:file");
     profile.angleScale = angleScale;
     profile.normalize = normalize;
     profile.turn_deg = turn_deg;
@@ -173,130 +172,122 @@ std::optional<SidecarProfile> readShapingProfile(const SidecarReader& reader, co
 }
 
 /// Its shape is known once its file is read.
-void readLuminaire(const SidecarReader& reader, const LocatedJson& object, SidecarLight& read) {
-    const LocatedJson* file = member(object, "file");
-    if (!file) reader.fail(object.line, "a LuminaireLight needs a 'file': LM-63 (.ies) or EULUMDAT (.ldt)");
-    read.profile = readProfileFile(reader, *file, "file");
+void readLuminaire(const LinedJson& document, const JsonView& object, SidecarLight& read) {
+    const auto file = object.find("file");
+    if (!file) object.fail("a LuminaireLight needs a 'file': LM-63 (.ies) or EULUMDAT (.ldt)");
+    read.profile = readProfileFile(document, *file, "file");
     read.profile->isLuminaire = true;
-    read.profile->turn_deg = reader.number(object, "turn", 0, {-360, 360});
+    read.profile->turn_deg = object.number("turn", 0, {-360, 360});
     read.light.emission = {Emission::Unit::candela,
-                           readStrength(reader, object, reader.number(object, "multiplier", 1, atLeastZero))};
-    requireFinite(reader, object, read.light.emission.value);
+                           readStrength(object, object.number("multiplier", 1, atLeastZero))};
+    requireFinite(object, read.light.emission.value);
 }
 
-void readSun(const SidecarReader& reader, const LocatedJson& object, SidecarLight& read) {
+void readSun(const LinedJson& document, const JsonView& object, SidecarLight& read) {
     for (const std::string_view key : {"latitude", "longitude", "time"})
-        if (!member(object, key)) reader.fail(object.line, fmt::format("a SunLight needs a '{}'", key));
-    const LocatedJson& time = *member(object, "time");
+        if (!object.has(key)) object.fail(fmt::format("a SunLight needs a '{}'", key));
+    const JsonView time = object.at("time");
     SunPlace place;
-    place.latitude_deg = reader.number(*member(object, "latitude"), "'latitude'", {-90, 90});
-    place.longitude_deg = reader.number(*member(object, "longitude"), "'longitude'", {-180, 180});
-    place.utc_days = parseSunTime(reader.text(time, "'time'"), reader.place(time.line));
-    const SunSetting setting{.north_deg = reader.number(object, "north", 0, {-360, 360}),
-                             .refraction = reader.boolean(object, "refraction", true)};
-    const Light sun = sunLight(read.light.name, place, setting, reader.place(time.line));
+    place.latitude_deg = object.at("latitude").asNumber({-90, 90});
+    place.longitude_deg = object.at("longitude").asNumber({-180, 180});
+    place.utc_days = parseSunTime(time.asName(), document.placeOf(time));
+    const SunSetting setting{.north_deg = object.number("north", 0, {-360, 360}),
+                             .refraction = object.boolean("refraction", true)};
+    const Light sun = sunLight(read.light.name, place, setting, document.placeOf(time));
     read.light.shape = sun.shape;
     read.parentFromLight = std::bit_cast<glm::mat4>(sun.shape.worldFromLight);
     read.isInWorld = true;
     read.light.emission = sun.emission;
-    read.light.emission.value *=
-        readStrength(reader, object, reader.number(object, "multiplier", 1, atLeastZero));
-    requireFinite(reader, object, read.light.emission.value);
+    read.light.emission.value *= readStrength(object, object.number("multiplier", 1, atLeastZero));
+    requireFinite(object, read.light.emission.value);
 }
 
 /// Sizes, UsdLux's where absent; brightness and shaping.
-void readShape(const SidecarReader& reader, const LocatedJson& object, SidecarLight& read) {
+void readShape(const LinedJson& document, const JsonView& object, SidecarLight& read) {
     AreaLight& shape = read.light.shape;
     if (shape.shape == LightShape::rect) {
-        shape.width_m = reader.number(object, "width", 1, atLeastZero);
-        shape.height_m = reader.number(object, "height", 1, atLeastZero);
+        shape.width_m = object.number("width", 1, atLeastZero);
+        shape.height_m = object.number("height", 1, atLeastZero);
     } else if (shape.shape == LightShape::distant) {
-        shape.angle_rad = std::min(glm::radians(reader.number(object, "angle", 0.53f, {0, 180})), pi);
+        shape.angle_rad = std::min(glm::radians(object.number("angle", 0.53f, {0, 180})), pi);
     } else {
-        shape.radius_m = reader.number(object, "radius", 0.5f, atLeastZero);
+        shape.radius_m = object.number("radius", 0.5f, atLeastZero);
     }
-    shape.twoSided = reader.boolean(object, "twoSided", false);
-    read.light.emission = readEmission(reader, object, shape);
-    read.light.cone_rad = readCone(reader, object);
-    read.profile = readShapingProfile(reader, object);
-    if (const LocatedJson* value = member(object, "texture:file")) {
-        read.textureFile = reader.text(*value, "'texture:file'");
-        read.textureLine = value->line;
+    shape.twoSided = object.boolean("twoSided", false);
+    read.light.emission = readEmission(object, shape);
+    read.light.cone_rad = readCone(object);
+    read.profile = readShapingProfile(document, object);
+    if (const auto value = object.find("texture:file")) {
+        read.textureFile = value->asName();
+        read.textureLine = document.lineOf(*value);
     }
 }
 
-SidecarLight readLight(const SidecarReader& reader, const LocatedJson& object) {
-    reader.expect(object, LocatedJson::Kind::object, "a light");
-    const LightType& type = readType(reader, object);
+SidecarLight readLight(const LinedJson& document, const JsonView& object) {
+    const LightType& type = readType(object);
     std::vector<std::string_view> known(commonKeys.begin(), commonKeys.end());
     for (const Keys keys : type.keys) known.insert(known.end(), keys.begin(), keys.end());
-    reader.checkKeys(object, known, type.name);
+    document.checkKeys(object, known, type.name);
 
     SidecarLight read;
     read.light.shape.shape = type.shape;
-    const LocatedJson* name = member(object, "name");
-    if (!name) reader.fail(object.line, "a light needs a 'name'");
-    read.light.name = reader.text(*name, "'name'");
-    read.light.castsShadow = reader.boolean(object, "shadow:enable", true);
+    const auto name = object.find("name");
+    if (!name) object.fail("a light needs a 'name'");
+    read.light.name = name->asName();
+    read.light.castsShadow = object.boolean("shadow:enable", true);
     switch (type.source) {
         case Source::shape:
-            readShape(reader, object, read);
+            readShape(document, object, read);
             break;
         case Source::luminaire:
-            readLuminaire(reader, object, read);
+            readLuminaire(document, object, read);
             break;
         case Source::sun:
-            readSun(reader, object, read);
+            readSun(document, object, read);
             break;
     }
-    readPlace(reader, object, read);
+    readPlace(document, object, read);
     return read;
 }
 
-SidecarNode readNode(const SidecarReader& reader, const LocatedJson::Member& named) {
+SidecarNode readNode(const LinedJson& document, const JsonView& object, const std::string& name) {
     constexpr std::array<std::string_view, 2> keys{"casts", "receives"};
-    const std::string where = fmt::format("node '{}'", named.key);
-    reader.expect(named.value, LocatedJson::Kind::object, where);
-    reader.checkKeys(named.value, keys, where);
-    SidecarNode node{named.key, {}, {}, named.line};
-    if (const LocatedJson* casts = member(named.value, "casts"))
-        node.casts = reader.boolean(*casts, "'casts'");
-    if (const LocatedJson* receives = member(named.value, "receives"))
-        node.receives = reader.boolean(*receives, "'receives'");
+    document.checkKeys(object, keys, fmt::format("node '{}'", name));
+    SidecarNode node{name, {}, {}, document.lineOf(object)};
+    if (const auto casts = object.find("casts")) node.casts = casts->asBoolean();
+    if (const auto receives = object.find("receives")) node.receives = receives->asBoolean();
     return node;
+}
+
+std::vector<SidecarLight> readLights(const LinedJson& document, const JsonView& list) {
+    std::vector<SidecarLight> lights;
+    std::set<std::string> names;
+    for (const JsonView& object : list.elements()) {
+        lights.push_back(readLight(document, object));
+        if (const std::string& name = lights.back().light.name; !names.insert(name).second)
+            object.at("name").fail(fmt::format("two lights are named '{}'", name));
+    }
+    return lights;
 }
 
 }  // namespace
 
 Sidecar parseSidecar(std::string_view json, const std::string& fileName) {
-    const LocatedJson root = parseLocatedJson(json, fileName);
-    const SidecarReader reader(fileName);
-    reader.expect(root, LocatedJson::Kind::object, "the file");
+    const LinedJson document(json, fileName);
+    const JsonView root = document.root();
     constexpr std::array<std::string_view, 4> keys{"$schema", "version", "lights", "nodes"};
-    reader.checkKeys(root, keys, "the file");
-    const LocatedJson* version = member(root, "version");
-    if (!version) reader.fail(root.line, "the file needs a \"version\": 1");
-    if (reader.number(*version, "'version'") != 1)
-        reader.fail(version->line,
-                    fmt::format("version {} is not known: this reads version 1", version->number));
-    if (const LocatedJson* schema = member(root, "$schema")) reader.text(*schema, "'$schema'");
+    document.checkKeys(root, keys, "the file");
+    const auto version = root.find("version");
+    if (!version) root.fail("the file needs a \"version\": 1");
+    if (const float number = version->asNumber(); number != 1)
+        version->fail(fmt::format("version {} is not known: this reads version 1", number));
+    if (const auto schema = root.find("$schema")) schema->asName();
 
     Sidecar sidecar{fileName, {}, {}};
-    if (const LocatedJson* lights = member(root, "lights")) {
-        reader.expect(*lights, LocatedJson::Kind::array, "'lights'");
-        sidecar.lights.emplace();
-        std::set<std::string_view> names;
-        for (const LocatedJson& item : lights->items) {
-            sidecar.lights->push_back(readLight(reader, item));
-            const LocatedJson& name = *member(item, "name");
-            if (!names.insert(name.text).second)
-                reader.fail(name.line, fmt::format("two lights are named '{}'", name.text));
-        }
-    }
-    if (const LocatedJson* nodes = member(root, "nodes")) {
-        reader.expect(*nodes, LocatedJson::Kind::object, "'nodes'");
-        for (const auto& named : nodes->members) sidecar.nodes.push_back(readNode(reader, named));
-    }
+    if (const auto lights = root.find("lights")) sidecar.lights = readLights(document, *lights);
+    if (const auto nodes = root.find("nodes"))
+        for (const std::string& name : document.keysInOrder(*nodes))
+            sidecar.nodes.push_back(readNode(document, nodes->at(name), name));
     return sidecar;
 }
 

@@ -258,7 +258,7 @@ TEST(Sidecar, ErrorsSayWhereAndWhatToDo) {
          f + "4: 'rotation' must be a quaternion [x, y, z, w] of length 1, not 0"},
         {withLight("\"shaping:cone:softness\": 2"),
          f + "4: 'shaping:cone:softness' must be between 0 and 1, not 2"},
-        {withLight("\"shadow:enable\": 1"), f + "4: 'shadow:enable' must be a boolean, not number"},
+        {withLight("\"shadow:enable\": 1"), f + "4: 'shadow:enable' must be true or false, not number"},
         {withLight("\"node\": \"\""), f + "4: 'node' must not be empty"},
         {withLight("\"node\": \"a\\u0007\""), f + "4: 'node' must not contain control characters"},
         {"{\"version\": 1, \"lights\": [\n{\"name\": \"a\"}]}",
@@ -272,7 +272,7 @@ TEST(Sidecar, ErrorsSayWhereAndWhatToDo) {
         {"{\"version\": 1, \"lights\": [{\"type\": \"DiskLight\", \"name\": \"b\"},\n"
          "{\"type\": \"DiskLight\", \"name\": \"b\"}]}",
          f + "2: two lights are named 'b'"},
-        {"{\"version\": 1, \"lights\": [\n7]}", f + "2: a light must be an object, not number"},
+        {"{\"version\": 1, \"lights\": [\n7]}", f + "2: 'lights'[0] must be an object, not number"},
         {"{\"version\": 1, \"lights\": {}}", f + "1: 'lights' must be an array, not object"},
         {"{\"version\": 1, \"light\": []}", f + "1: unknown key 'light' in the file; did you mean 'lights'?"},
         {"{\"version\": 1, \"nodes\": {\n\"A\": {\"cast\": true}}}",

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "studio/scene/gltf/json_view.h"
+#include "studio/scene/json/json_view.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace penumbra::studio::gltf {
+namespace penumbra::studio {
 
 namespace {
 
 // RFC 6901, section 3.
-std::string escaped(const std::string& key) {
+std::string escaped(std::string_view key) {
     std::string text;
     for (const char c : key) {
         if (c == '~')
@@ -24,52 +25,48 @@ std::string escaped(const std::string& key) {
     return text;
 }
 
-}  // namespace
-
-PlaceError::PlaceError(const std::string& place, const std::string& problem, const std::string& remedy)
-    : std::runtime_error(fmt::format("{}{}{}; {}", place, place.empty() ? "" : ": ", problem, remedy)) {}
-
-std::optional<JsonView> JsonView::find(const std::string& key) const {
-    if (!value_->is_object()) fail("must be an object");
-    const auto member = value_->find(key);
-    if (member == value_->end()) return std::nullopt;
-    return JsonView(*member, pointer_ + '/' + escaped(key));
+std::string describe(const Limits& limits) {
+    if (limits.max == Limits::infinity) return fmt::format("at least {}", limits.min);
+    return fmt::format("between {} and {}", limits.min, limits.max);
 }
 
-JsonView JsonView::at(const std::string& key) const {
+}  // namespace
+
+void JsonView::requireObject() const {
+    if (!value_->is_object()) failAs(fmt::format("must be an object, not {}", value_->type_name()));
+}
+
+std::optional<JsonView> JsonView::find(std::string_view key) const {
+    requireObject();
+    const auto member = value_->find(key);
+    if (member == value_->end()) return std::nullopt;
+    return JsonView(*member, pointer_ + '/' + escaped(key), *places_);
+}
+
+JsonView JsonView::at(std::string_view key) const {
     const auto member = find(key);
     if (!member) fail(fmt::format("'{}' is missing", key));
     return *member;
 }
 
 std::vector<std::string> JsonView::keys() const {
-    if (!value_->is_object()) fail("must be an object");
+    requireObject();
     std::vector<std::string> names;
     for (const auto& member : value_->items()) names.push_back(member.key());
     return names;
 }
 
-std::vector<JsonView> JsonView::list(const std::string& key) const {
+std::vector<JsonView> JsonView::list(std::string_view key) const {
     const auto member = find(key);
     return member ? member->elements() : std::vector<JsonView>{};
 }
 
-std::optional<JsonView> JsonView::extension(const std::string& name) const {
-    const auto extensions = find("extensions");
-    return extensions ? extensions->find(name) : std::nullopt;
-}
-
-std::optional<JsonView> JsonView::penumbraExtras() const {
-    const auto extras = find("extras");
-    return extras && extras->isObject() ? extras->find("penumbra") : std::nullopt;
-}
-
 std::vector<JsonView> JsonView::elements() const {
-    if (!value_->is_array()) fail("must be an array");
+    if (!value_->is_array()) failAs(fmt::format("must be an array, not {}", value_->type_name()));
     std::vector<JsonView> views;
     views.reserve(value_->size());
     for (const nlohmann::json& element : *value_)
-        views.emplace_back(element, fmt::format("{}/{}", pointer_, views.size()));
+        views.emplace_back(element, fmt::format("{}/{}", pointer_, views.size()), *places_);
     return views;
 }
 
@@ -87,37 +84,48 @@ std::int64_t JsonView::asInteger(std::int64_t min, std::int64_t max) const {
             integer = std::int64_t(real);
     }
     if (!integer || *integer < min || *integer > max)
-        fail(fmt::format("must be an integer from {} to {}", min, max));
+        failAs(fmt::format("must be an integer from {} to {}", min, max));
     return *integer;
 }
 
 int JsonView::asIndex(std::size_t size) const {
-    if (size == 0) fail("refers to something of which the file has none");
+    if (size == 0) failAs("refers to something of which the file has none");
     return int(asInteger(0, std::int64_t(std::min<std::size_t>(size, std::numeric_limits<int>::max())) - 1));
 }
 
-float JsonView::asNumber() const {
-    if (!value_->is_number()) fail("must be a number");
+float JsonView::asNumber(const Limits& limits) const {
+    if (!value_->is_number()) failAs(fmt::format("must be a number, not {}", value_->type_name()));
     const double number = value_->get<double>();
-    if (!(std::abs(number) <= double(std::numeric_limits<float>::max()))) fail("is too large a number");
+    if (!(std::abs(number) <= double(std::numeric_limits<float>::max())))
+        failAs(fmt::format("must be a number of ordinary size, not {}", number));
+    if (number < limits.min || number > limits.max)
+        failAs(fmt::format("must be {}, not {}", describe(limits), number));
     return float(number);
 }
 
 bool JsonView::asBoolean() const {
-    if (!value_->is_boolean()) fail("must be true or false");
+    if (!value_->is_boolean()) failAs(fmt::format("must be true or false, not {}", value_->type_name()));
     return value_->get<bool>();
 }
 
 const std::string& JsonView::asString() const {
-    if (!value_->is_string()) fail("must be a string");
+    if (!value_->is_string()) failAs(fmt::format("must be a string, not {}", value_->type_name()));
     return value_->get_ref<const std::string&>();
 }
 
-std::vector<float> JsonView::asNumbers(std::size_t count) const {
-    if (!value_->is_array() || value_->size() != count)
-        fail(fmt::format("must be an array of {} numbers", count));
+const std::string& JsonView::asName() const {
+    const std::string& text = asString();
+    if (text.empty()) failAs("must not be empty");
+    if (std::ranges::any_of(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+        failAs("must not contain control characters");
+    return text;
+}
+
+std::vector<float> JsonView::asNumbers(std::size_t count, const Limits& limits) const {
+    const std::vector<JsonView> views = elements();
+    if (views.size() != count) failAs(fmt::format("must have {} numbers, not {}", count, views.size()));
     std::vector<float> numbers;
-    for (const JsonView& element : elements()) numbers.push_back(element.asNumber());
+    for (const JsonView& element : views) numbers.push_back(element.asNumber(limits));
     return numbers;
 }
 
@@ -126,60 +134,51 @@ std::vector<double> JsonView::asDoubles(std::size_t count) const {
     return value_->get<std::vector<double>>();
 }
 
-std::optional<int> JsonView::index(const std::string& key, std::size_t size) const {
+std::optional<int> JsonView::index(std::string_view key, std::size_t size) const {
     const auto member = find(key);
     return member ? std::optional(member->asIndex(size)) : std::nullopt;
 }
 
-std::int64_t JsonView::integer(const std::string& key, std::int64_t fallback, std::int64_t min,
+std::int64_t JsonView::integer(std::string_view key, std::int64_t fallback, std::int64_t min,
                                std::int64_t max) const {
     const auto member = find(key);
     return member ? member->asInteger(min, max) : fallback;
 }
 
-float JsonView::number(const std::string& key, float fallback) const {
+float JsonView::number(std::string_view key, float fallback, const Limits& limits) const {
     const auto member = find(key);
-    return member ? member->asNumber() : fallback;
+    return member ? member->asNumber(limits) : fallback;
 }
 
-float JsonView::numberWithin(const std::string& key, float fallback, float min, float max) const {
-    const auto member = find(key);
-    if (!member) return fallback;
-    const float number = member->asNumber();
-    if (number < min || number > max)
-        member->fail(fmt::format("is {}, but must lie in [{}, {}]", number, min, max));
-    return number;
-}
-
-bool JsonView::boolean(const std::string& key, bool fallback) const {
+bool JsonView::boolean(std::string_view key, bool fallback) const {
     const auto member = find(key);
     return member ? member->asBoolean() : fallback;
 }
 
-std::string JsonView::string(const std::string& key, const std::string& fallback) const {
+std::string JsonView::string(std::string_view key, const std::string& fallback) const {
     const auto member = find(key);
     return member ? member->asString() : fallback;
 }
 
-glm::vec2 JsonView::vec2(const std::string& key, glm::vec2 fallback) const {
+glm::vec2 JsonView::vec2(std::string_view key, glm::vec2 fallback) const {
     const auto member = find(key);
     if (!member) return fallback;
     const std::vector<float> v = member->asNumbers(2);
     return {v[0], v[1]};
 }
 
-glm::vec3 JsonView::vec3(const std::string& key, glm::vec3 fallback) const {
+glm::vec3 JsonView::vec3(std::string_view key, glm::vec3 fallback, const Limits& limits) const {
     const auto member = find(key);
     if (!member) return fallback;
-    const std::vector<float> v = member->asNumbers(3);
+    const std::vector<float> v = member->asNumbers(3, limits);
     return {v[0], v[1], v[2]};
 }
 
-glm::dvec3 JsonView::dvec3(const std::string& key, glm::dvec3 fallback) const {
+glm::dvec3 JsonView::dvec3(std::string_view key, glm::dvec3 fallback) const {
     const auto member = find(key);
     if (!member) return fallback;
     const std::vector<double> v = member->asDoubles(3);
     return {v[0], v[1], v[2]};
 }
 
-}  // namespace penumbra::studio::gltf
+}  // namespace penumbra::studio
