@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <span>
 #include <string>
@@ -34,6 +35,13 @@ struct Image {
 
 struct PictureSize {
     int width_px = 0, height_px = 0;
+};
+
+/// A decoded picture: 8-bit sRGB-encoded colour with linear alpha, rows from the top.
+struct Picture {
+    std::string name;
+    int width_px = 0, height_px = 0;
+    std::vector<std::uint8_t> rgba;
 };
 
 /// Text that travels with a picture: "Software", "penumbra:command", ...

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "penumbra/light.h"
+#include "studio/image/image.h"
 
 namespace penumbra::studio {
 
@@ -30,13 +31,6 @@ inline bool isFar(const glm::dvec3& min, const glm::dvec3& max) {
     constexpr double manyTimes = 8;
     return glm::length(0.5 * (min + max)) > manyTimes * 0.5 * glm::length(max - min);
 }
-
-/// A decoded picture: 8-bit sRGB-encoded colour with linear alpha, rows from the top.
-struct Picture {
-    std::string name;
-    int width_px = 0, height_px = 0;
-    std::vector<std::uint8_t> rgba;
-};
 
 /// A picture with its sampler; the enums are glTF's (and OpenGL's) numbers.
 struct Texture {

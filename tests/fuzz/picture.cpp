@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "studio/errors.h"
-#include "studio/scene/gltf/picture_decode.h"
+#include "studio/image/picture_decode.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace penumbra::studio;

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "studio/errors.h"
+#include "studio/image/test_pictures.h"
 #include "studio/scene/gltf/test_fixture.h"
-#include "studio/scene/gltf/test_pictures.h"
 #include "studio/scene/topology.h"
 
 namespace penumbra::studio {

@@ -7,9 +7,9 @@
 #include <random>
 
 #include "studio/errors.h"
+#include "studio/image/test_pictures.h"
 #include "studio/scene/gltf/gltf.h"
 #include "studio/scene/gltf/test_gltf.h"
-#include "studio/scene/gltf/test_pictures.h"
 
 namespace penumbra::studio {
 namespace {

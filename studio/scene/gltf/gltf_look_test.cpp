@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "studio/errors.h"
+#include "studio/image/test_pictures.h"
 #include "studio/scene/gltf/test_fixture.h"
-#include "studio/scene/gltf/test_pictures.h"
 
 namespace penumbra::studio {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "studio/image/picture_decode.h"
 #include "studio/scene/gltf/extensions.h"
-#include "studio/scene/gltf/picture_decode.h"
 
 namespace penumbra::studio::gltf {
 

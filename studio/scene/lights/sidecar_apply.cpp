@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "studio/errors.h"
+#include "studio/image/picture_decode.h"
 #include "studio/scene/file_beside.h"
 #include "studio/scene/gltf/lights.h"
-#include "studio/scene/gltf/picture_decode.h"
 #include "studio/scene/lights/nearest_name.h"
 #include "studio/scene/lights/sidecar.h"
 #include "studio/scene/profiles/luminaire.h"

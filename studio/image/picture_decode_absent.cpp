@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "studio/errors.h"
-#include "studio/scene/gltf/picture_decode.h"
+#include "studio/image/picture_decode.h"
 
 namespace penumbra::studio {
 

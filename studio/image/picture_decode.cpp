@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// libpng and libjpeg report errors by longjmp, which must not skip a destructor: the functions that call
-// setjmp have trivial locals only, and what they fill belongs to their callers.
-#include "studio/scene/gltf/picture_decode.h"
+// libjpeg reports errors by longjmp, which must not skip a destructor: the functions that call setjmp have
+// trivial locals only, and what they fill belongs to their callers.
+#include "studio/image/picture_decode.h"
 
 #include <fmt/format.h>
-#include <png.h>
 #include <webp/decode.h>
 
 #include <algorithm>
@@ -20,6 +19,7 @@
 #include <jpeglib.h>
 
 #include "studio/errors.h"
+#include "studio/image/png_reader.h"
 
 namespace penumbra::studio {
 
@@ -59,77 +59,6 @@ void checkSize(std::uint64_t width, std::uint64_t height, std::size_t file_bytes
     if (decoded_bytes > harmless_bytes && decoded_bytes / maxExpansion > file_bytes)
         refuseAsTooLarge(name, fmt::format("would grow from {} to {} bytes", file_bytes, decoded_bytes));
 }
-
-// PNG
-// ---------------------------------------------------------------------------------------------------------------
-
-bool isPng(std::span<const std::byte> bytes) {
-    return bytes.size() >= 8 && png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, 8) == 0;
-}
-
-struct PngSource {
-    std::span<const std::byte> rest;
-    Message message;
-};
-
-void readPngBytes(png_structp png, png_bytep out, std::size_t count) {
-    auto& source = *static_cast<PngSource*>(png_get_io_ptr(png));
-    if (count > source.rest.size()) png_error(png, "ends too early");
-    std::memcpy(out, source.rest.data(), count);
-    source.rest = source.rest.subspan(count);
-}
-
-void onPngError(png_structp png, png_const_charp text) {
-    auto& source = *static_cast<PngSource*>(png_get_error_ptr(png));
-    std::snprintf(source.message.text.data(), source.message.text.size(), "%s", text);
-    png_longjmp(png, 1);
-}
-
-void onPngWarning(png_structp, png_const_charp) {}
-
-class PngReader {
-  public:
-    explicit PngReader(std::span<const std::byte> bytes) : source_{bytes, {}} {
-        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source_, onPngError, onPngWarning);
-        info_ = png_ ? png_create_info_struct(png_) : nullptr;
-    }
-    ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-    PngReader(const PngReader&) = delete;
-    PngReader& operator=(const PngReader&) = delete;
-
-    const char* message() const { return source_.message.text.data(); }
-
-    bool readHeader(std::uint32_t& width, std::uint32_t& height) {
-        if (!png_ || !info_ || setjmp(png_jmpbuf(png_))) return false;
-        png_set_read_fn(png_, &source_, readPngBytes);
-        png_set_user_limits(png_, 0x7fffffff, 0x7fffffff);  // checkSize says it better
-        png_set_chunk_malloc_max(png_, 8u << 20);
-        png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, 0);
-        png_read_info(png_, info_);
-        width = png_get_image_width(png_, info_);
-        height = png_get_image_height(png_, info_);
-        return true;
-    }
-
-    // `rows` are the starts of the picture's rows, four bytes a pixel.
-    bool readPixels(png_bytepp rows) {
-        if (setjmp(png_jmpbuf(png_))) return false;
-        png_set_expand(png_);
-        png_set_scale_16(png_);
-        png_set_gray_to_rgb(png_);
-        png_set_add_alpha(png_, 0xff, PNG_FILLER_AFTER);
-        png_set_interlace_handling(png_);
-        png_read_update_info(png_, info_);
-        png_read_image(png_, rows);
-        png_read_end(png_, nullptr);
-        return true;
-    }
-
-  private:
-    PngSource source_;
-    png_structp png_ = nullptr;
-    png_infop info_ = nullptr;
-};
 
 // JPEG
 // --------------------------------------------------------------------------------------------------------------

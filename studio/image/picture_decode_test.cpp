@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "studio/scene/gltf/picture_decode.h"
+#include "studio/image/picture_decode.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "studio/errors.h"
-#include "studio/scene/gltf/test_pictures.h"
+#include "studio/image/test_pictures.h"
 
 namespace penumbra::studio {
 namespace {

@@ -18,8 +18,6 @@
 namespace penumbra::studio {
 namespace {
 
-constexpr std::size_t maxPixels = std::size_t(1) << 27;
-
 struct Failure {
     std::array<char, 200> message{};
 };
@@ -31,8 +29,6 @@ struct Failure {
 }
 
 void onWarning(png_structp, png_const_charp) {}
-
-// --- Writing ---
 
 class Writer {
   public:
@@ -113,79 +109,6 @@ std::vector<png_text> textChunks(const std::filesystem::path& path, const Metada
     return chunks;
 }
 
-// --- Reading ---
-
-class Reader {
-  public:
-    explicit Reader(std::span<const std::byte> file)
-        : rest_(file), png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &failure, onError, onWarning)) {
-        info_ = png_ ? png_create_info_struct(png_) : nullptr;
-        if (!info_) std::strncpy(failure.message.data(), "out of memory", failure.message.size() - 1);
-    }
-    Reader(const Reader&) = delete;
-    Reader& operator=(const Reader&) = delete;
-    ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-
-    /// False, and `failure` says why, when libpng refuses. Then `channels`, `width` and `height` are known.
-    bool readHeader() {
-        if (!info_) return false;
-        if (setjmp(png_jmpbuf(png_))) return false;
-        png_set_user_limits(png_, 1 << 16, 1 << 16);
-        png_set_read_fn(png_, this, take);
-        png_read_info(png_, info_);
-        png_set_expand(png_);
-        png_set_scale_16(png_);
-        passes_ = png_set_interlace_handling(png_);
-        png_read_update_info(png_, info_);
-        if (png_get_channels(png_, info_) == 2) png_error(png_, "grey with alpha is not supported");
-        channels = png_get_channels(png_, info_);
-        width = png_get_image_width(png_, info_);
-        height = png_get_image_height(png_, info_);
-        if (std::size_t(width) * height > maxPixels) png_error(png_, "it is too large");
-        return true;
-    }
-
-    /// Fills width * height * channels bytes.
-    bool readPixels(png_byte* pixels) {
-        if (setjmp(png_jmpbuf(png_))) return false;
-        const std::size_t stride = std::size_t(width) * channels;
-        for (int pass = 0; pass < passes_; ++pass) {
-            for (std::size_t y = 0; y < height; ++y) png_read_row(png_, pixels + y * stride, nullptr);
-        }
-        png_read_end(png_, info_);
-        return true;
-    }
-
-    Metadata texts() const {
-        Metadata metadata;
-        png_textp chunks = nullptr;
-        const int count = png_get_text(png_, info_, &chunks, nullptr);
-        for (int i = 0; i < count; ++i) metadata[chunks[i].key] = chunks[i].text;
-        return metadata;
-    }
-
-    png_uint_32 width = 0, height = 0;
-    int channels = 0;
-    Failure failure;
-
-  private:
-    static void take(png_structp png, png_bytep destination, std::size_t size) {
-        auto& rest = static_cast<Reader*>(png_get_io_ptr(png))->rest_;
-        if (size > rest.size()) png_error(png, "the file ends too early");
-        std::memcpy(destination, rest.data(), size);
-        rest = rest.subspan(size);
-    }
-
-    std::span<const std::byte> rest_;
-    png_structp png_ = nullptr;
-    png_infop info_ = nullptr;
-    int passes_ = 1;
-};
-
-}  // namespace
-
-namespace {
-
 /// `path` is what messages name.
 std::vector<std::byte> encode(const std::filesystem::path& path, const Image& image,
                               const Metadata& metadata) {
@@ -208,24 +131,6 @@ void writePng(const std::filesystem::path& path, const Image& image, const Metad
 
 std::vector<std::byte> encodePng(const Image& image) {
     return encode("a picture in a page", image, {});
-}
-
-PngPicture readPng(const std::filesystem::path& path) {
-    const std::vector<std::byte> file = readWholeFile(path);
-    const auto refuse = [&](const Failure& failure) {
-        return InputError(fmt::format("cannot read '{}' as a PNG picture: {}; write it again", path.string(),
-                                      failure.message.data()));
-    };
-    Reader reader(file);
-    if (!reader.readHeader()) throw refuse(reader.failure);
-    std::vector<png_byte> pixels(std::size_t(reader.width) * reader.height * reader.channels);
-    if (!reader.readPixels(pixels.data())) throw refuse(reader.failure);
-
-    PngPicture picture{.image = Image(int(reader.width), int(reader.height), reader.channels)};
-    std::ranges::transform(pixels, picture.image.values.begin(),
-                           [](png_byte value) { return float(value) / 255.0f; });
-    picture.metadata = reader.texts();
-    return picture;
 }
 
 }  // namespace penumbra::studio

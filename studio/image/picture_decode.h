@@ -8,7 +8,6 @@
 
 #include "studio/errors.h"
 #include "studio/image/image.h"
-#include "studio/scene/scene.h"
 
 namespace penumbra::studio {
 
