@@ -21,15 +21,6 @@ constexpr std::array<const char*, mostRounds> decisionPasses = {
     "adaptive/decision of round 0", "adaptive/decision of round 1", "adaptive/decision of round 2",
     "adaptive/decision of round 3"};
 constexpr const char* lastMapsPass = "adaptive/maps of the last round";
-constexpr std::array<const char*, deepestLevel + 1> sampleCounts = {
-    "samples of level 0", "samples of level 1", "samples of level 2", "samples of level 3",
-    "samples of level 4"};
-constexpr std::array<const char*, deepestLevel> splitCounts = {
-    "quads split at level 0", "quads split at level 1", "quads split at level 2", "quads split at level 3"};
-constexpr std::array<const char*, deepestLevel> failingCounts = {
-    "failing fragments of level 0", "failing fragments of level 1", "failing fragments of level 2",
-    "failing fragments of level 3"};
-
 /// Points of a cell: they make bands as many times narrower. The paper's test passes bands of three pixels
 /// (section 3.3.3: a different value in the 1-ring), of which four make less than a pixel; an error target
 /// takes more.
@@ -49,27 +40,26 @@ constexpr int leastSlots = 2 * leastSamples;  ///< with those of the last frame
 /// Steps of an eighth, of which the error of a ramp is 0.04.
 constexpr int depthWithoutFilter = 3;
 
-constexpr int cellsPerSide = 34;  // see lattice_weights.comp.glsl
-
 }  // namespace
 
 AdaptiveLightSampling::AdaptiveLightSampling(Device& device)
-    : maps_(device),
+    : device_(device),
+      maps_(device),
       receivers_(device),
       subdivision_(device),
       evaluation_(device),
-      radiance_(device),
-      cellShares_(cellsPerSide * cellsPerSide * sizeof(LightSample), "light sampling cell shares") {
-    const std::vector<LightSample> shares(cellsPerSide * cellsPerSide,
-                                          {.weight = glm::vec4(1.0f / (cellsPerSide * cellsPerSide))});
-    cellShares_.write(std::as_bytes(std::span(shares)));
-    for (const PatternPoint& cell : makePattern(SamplePattern::cells, cellsPerSide, 0, false)) {
-        cells_.emplace_back(glm::vec2(cell.cellMin), glm::vec2(cell.cellMax));
-    }
-}
+      radiance_(device) {}
 
 void AdaptiveLightSampling::describe(ParameterVisitor& visitor) {
     static constexpr std::array<std::string_view, 2> weights = {"area", "paper"};
+    static constexpr std::array<std::string_view, 2> lattices = {"cells", "corners"};
+    static constexpr std::array<std::string_view, 2> countings = {"counters", "queries"};
+    static constexpr std::array<std::string_view, 2> emissions = {"surface", "volume"};
+    visitor.boolean(
+        {.name = "published",
+         .help = "the paper alone: lattice=corners, counting=queries, min_depth=0, weights=paper, "
+                 "smooth=false, reuse=false, plain kernels"},
+        isPublished_);
     visitor.integer({.name = "max_samples", .help = "the most points of the light to draw maps from"},
                     options_.maxSamples, {1, latticeVertices});
     visitor.integer({.name = "max_depth", .help = "the most times that the light is quartered"},
@@ -89,6 +79,19 @@ void AdaptiveLightSampling::describe(ParameterVisitor& visitor) {
     visitor.choice(
         {.name = "weights", .help = "of samples: the area each stands for, or the paper's equation 3"},
         weights_, weights);
+    visitor.choice(
+        {.name = "lattice", .help = "samples: the middles of 17 x 17 cells, or the light's very corners"},
+        lattice_, lattices);
+    visitor.choice(
+        {.name = "counting",
+         .help = "failing fragments: by counters, on the device, or by occlusion queries, one a quad, "
+                 "for which the CPU waits; these know no max_error, smooth and reuse"},
+        counting_, countings);
+    visitor.real({.name = "jitter", .help = "moves samples at random; in parts of the lattice's cell"},
+                 jitter_, {0, 1});
+    visitor.choice({.name = "emission",
+                    .help = "a ball shines from its surface, or from all of its inside (counting=queries)"},
+                   emission_, emissions);
     visitor.integer({.name = "map_size", .unit = "texels", .help = "width and height of each shadow map"},
                     mapSize_px_, {16, 16384});
     visitor.boolean({.name = "smooth",
@@ -109,14 +112,27 @@ int AdaptiveLightSampling::taps() const {
     return options_.maxError > 0 ? tapsForError : tapsAgainstBands;
 }
 
-void AdaptiveLightSampling::chooseSamples(const LightSurface& surface) {
+bool AdaptiveLightSampling::isVolume(const AreaLight& light) const {
+    return emission_ == 1 && light.shape == LightShape::sphere && light.radius_m > 0;
+}
+
+bool AdaptiveLightSampling::countsByQueries(const AreaLight& light) const {
+    return isPublished_ || counting_ == 1 || isVolume(light);
+}
+
+void AdaptiveLightSampling::chooseSamples(const AreaLight& light, const LightSurface& surface) {
     samples_.clear();
     isCenterAlone_ = surface.isPoint() || options_.maxSamples < 4;
     if (isCenterAlone_) {
         samples_.push_back(surface.sample(glm::dvec2(0.5)));
         return;
     }
-    for (const PatternPoint& point : makePattern(SamplePattern::cells, latticeSide, 0, false)) {
+    if (isVolume(light)) {
+        samples_ = ballSamples(light.radius_m, PublishedSampling::side(3));
+        return;
+    }
+    const SamplePattern pattern = usesCorners() ? SamplePattern::corners : SamplePattern::cells;
+    for (const PatternPoint& point : makePattern(pattern, latticeSide, 0, false, jitter_)) {
         samples_.push_back(surface.sampleWithSpans(point.square, 1.0 / latticeSide));
     }
 }
@@ -152,29 +168,38 @@ void AdaptiveLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer&
     appendBytes(key_, evaluationOptions_.path);  // and with these, what is looked up
     appendBytes(key_, evaluationOptions_.filter);
     appendBytes(key_, mapSize_px_);
-    wasStatic_ = reuses_ && isKnown && key_ == lastKey_ && maps_.isResident();
+    appendBytes(key_, usesCorners());
+    appendBytes(key_, jitter_);
+    const bool usesQueries = countsByQueries(inputs.light);
+    wasStatic_ = reuses_ && !usesQueries && isKnown && key_ == lastKey_ && maps_.isResident();
     lastKey_.clear();  // until the frame is complete
 
     if (!wasStatic_) {
         const LightSpaceScene scene = makeLightSpaceScene(inputs, frame.lightFromWorld);
         const LightSurface surface(inputs.light, scene);
-        chooseSamples(surface);
+        chooseSamples(inputs.light, surface);
         const int mapSize_px =
             cameras_.fitMaps(inputs.light, surface, samples_, scene, mapSize_px_,
                              SampleMaps::memory_bytes / (leastSlots * SampleMaps::texel_bytes));
         treeOptions_ = treeOptionsFor(inputs.light, mapSize_px);
         maps_.prepare(inputs.casters, scene, samples_, cameras_, mapSize_px,
-                      isCenterAlone_ ? 1 : treeOptions_.mostSlotsInAll());
+                      isCenterAlone_ ? 1
+                      : usesQueries  ? options_.maxSamples
+                                     : treeOptions_.mostSlotsInAll());
     }
     maps_.keep(inputs.casters);
     view_.fill(inputs.view, frame.lightFromWorld);
     if (isCenterAlone_ || cameras_.faces == 0) {
         renderCenterAlone(frame);
+    } else if (usesQueries) {
+        renderByQueries(frame);
+        return;
     } else {
         subdivide(frame);
         weigh(frame);
         evaluate(frame);
         subdivision_.requestReadback(maps_);
+        wasPublished_ = false;
     }
     std::swap(lastKey_, key_);
 }
@@ -193,6 +218,33 @@ void AdaptiveLightSampling::renderCenterAlone(const Frame& frame) {
         maps_.draw(stageOfAll, 0, cameras_, {});
     }
     evaluateBatch(frame, stageOfAll, 0, 1);
+}
+
+void AdaptiveLightSampling::renderByQueries(const Frame& frame) {
+    if (!published_) published_ = std::make_unique<PublishedSampling>(device_);
+    lastTreeOptions_.reset();
+    wasPublished_ = true;
+    const bool isBall = isVolume(frame.inputs.light);
+    EvaluationOptions evaluation = evaluationOptions_;
+    evaluation.hasBoxKernel = isPublished_;
+    evaluation.emitsThroughout = isBall;
+    published_->render({.inputs = frame.inputs,
+                        .view = view_,
+                        .cameras = cameras_,
+                        .samples = samples_,
+                        .maps = maps_,
+                        .radiance = radiance_,
+                        .timers = timers_,
+                        .out = frame.out},
+                       {.maxSamples = options_.maxSamples,
+                        .minDepth = isPublished_ ? 0 : options_.minDepth,
+                        .maxDepth = options_.maxDepth,
+                        .tolerated = options_.tolerated,
+                        .comparisonScale = comparisonScale_,
+                        .usesPaperWeights = usesPaperWeights(),
+                        .dimensions = isBall ? 3 : 2,
+                        .hasMargin = isBall || !usesCorners(),
+                        .evaluation = evaluation});
 }
 
 void AdaptiveLightSampling::findReceivers(const Frame& frame) {
@@ -250,8 +302,9 @@ void AdaptiveLightSampling::compare(const Frame& frame, int stage, int batch, in
 void AdaptiveLightSampling::weigh(const Frame& frame) {
     const auto pass = timers_.pass("adaptive/weights");
     const GLuint texture = frame.inputs.light.radianceTexture;
-    if (texture != 0) radiance_.weigh(texture, cells_, cellShares_);
-    subdivision_.weigh(maps_, weights_ == 1, texture != 0 ? &cellShares_ : nullptr);
+    shares_.set(usesCorners());
+    if (texture != 0) radiance_.weigh(texture, shares_.cells(), shares_.buffer());
+    subdivision_.weigh(maps_, usesPaperWeights(), shares_, texture != 0);
 }
 
 void AdaptiveLightSampling::drawMaps(int stage, int batch, const char* passName,
@@ -302,10 +355,17 @@ void AdaptiveLightSampling::inspect(InspectionVisitor& visitor) const {
     visitor.texture(
         {.name = "depth maps", .texture = maps_.texture().name(), .layers = maps_.texture().layers()});
     if (isCenterAlone_) return;
-    subdivision_.illustrate();
-    visitor.texture({.name = "sums of the corners' shadows", .texture = subdivision_.sumsPicture().name()});
-    visitor.texture({.name = "failing fragments", .texture = subdivision_.failingPicture().name()});
-    visitor.texture({.name = "subdivision of the light", .texture = subdivision_.quadsPicture().name()});
+    const auto show = [&](const auto& tree) {
+        visitor.texture({.name = "sums of the corners' shadows", .texture = tree.sumsPicture().name()});
+        visitor.texture({.name = "failing fragments", .texture = tree.failingPicture().name()});
+        visitor.texture({.name = "subdivision of the light", .texture = tree.quadsPicture().name()});
+    };
+    if (wasPublished_) {
+        show(*published_);
+    } else {
+        subdivision_.illustrate();
+        show(subdivision_);
+    }
 }
 
 Statistics AdaptiveLightSampling::statistics() const {
@@ -314,27 +374,15 @@ Statistics AdaptiveLightSampling::statistics() const {
         statistics.counts = {{"maps", double(cameras_.faces)}, {"samples", 1}};
         return statistics;
     }
+    if (wasPublished_) {
+        statistics.counts = published_->counts().statistics(cameras_.faces);
+        return statistics;
+    }
     const std::optional<SubdivisionPasses::Snapshot> latest = subdivision_.latest();
     if (!latest) return statistics;
     const auto& [tree, plan] = *latest;
-    double samples = 0;
-    for (const glm::uint ofLevel : tree.samplesOfLevel) samples += ofLevel;
-    statistics.counts = {{"maps", double(plan.stages[stageOfAll].y) * cameras_.faces},
-                         {"samples", samples},
-                         {"reached the maximum", double(tree.reachedMaximum)},
-                         {"reused", double(wasStatic_)}};
-    std::size_t quad = 0;
-    for (std::size_t level = 0; level < deepestLevel; ++level) {
-        double split = 0, failing = 0;
-        for (std::size_t end = quad + (std::size_t(1) << (2 * level)); quad < end; ++quad) {
-            split += tree.split[quad];
-            failing += tree.failing[quad];
-        }
-        statistics.counts.push_back({sampleCounts[level], double(tree.samplesOfLevel[level])});
-        statistics.counts.push_back({splitCounts[level], split});
-        statistics.counts.push_back({failingCounts[level], failing, "fragments"});
-    }
-    statistics.counts.push_back({sampleCounts[deepestLevel], double(tree.samplesOfLevel[deepestLevel])});
+    statistics.counts = TreeCounts::of(tree, plan.stages[stageOfAll].y).statistics(cameras_.faces);
+    statistics.counts.push_back({"reused", double(wasStatic_)});
     if (options_.maxError > 0) {
         statistics.counts.push_back({"bound of the error", double(std::bit_cast<float>(tree.errorBound))});
     }

@@ -5,12 +5,14 @@
 // 17 x 17 samples.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "penumbra/technique.h"
 #include "src/gl/pass_timers.h"
 #include "src/techniques/light_sampling/evaluation.h"
+#include "src/techniques/light_sampling/published.h"
 #include "src/techniques/light_sampling/receiver_tiles.h"
 #include "src/techniques/light_sampling/subdivision.h"
 
@@ -33,10 +35,17 @@ class AdaptiveLightSampling final : public Technique {
         VisibilityBuffer& out;
     };
 
+    // What `published` sets beside what its class leaves out.
+    bool usesCorners() const { return isPublished_ || lattice_ == 1; }
+    bool usesPaperWeights() const { return isPublished_ || weights_ == 1; }
+    bool isVolume(const AreaLight& light) const;
+    bool countsByQueries(const AreaLight& light) const;
+    void renderByQueries(const Frame& frame);
+
     bool usesBits() const;
     int taps() const;
     SubdivisionOptions treeOptionsFor(const AreaLight& light, int mapSize_px) const;
-    void chooseSamples(const LightSurface& surface);
+    void chooseSamples(const AreaLight& light, const LightSurface& surface);
     void renderCenterAlone(const Frame& frame);
     void subdivide(const Frame& frame);
     /// Of maps whose samples stand for quads of a level or deeper ones.
@@ -48,11 +57,14 @@ class AdaptiveLightSampling final : public Technique {
     void evaluate(const Frame& frame);
     void evaluateBatch(const Frame& frame, int stage, int batch, int mostSlots);
 
+    Device& device_;
     SubdivisionOptions options_;
     SubdivisionOptions treeOptions_;  // what of them holds for the light at hand
     std::optional<SubdivisionOptions> lastTreeOptions_;
     float comparisonScale_ = 1;
-    int weights_ = 0;
+    bool isPublished_ = false;
+    int lattice_ = 0, counting_ = 0, emission_ = 0, weights_ = 0;
+    float jitter_ = 0;
     int mapSize_px_ = 512;
     bool reuses_ = true;
     bool smooths_ = true;
@@ -65,12 +77,12 @@ class AdaptiveLightSampling final : public Technique {
     SubdivisionPasses subdivision_;
     SampleEvaluation evaluation_;
     RadianceWeights radiance_;
-    gl::Buffer cellShares_;
-    std::vector<glm::vec4> cells_;
+    LatticeShares shares_;
+    std::unique_ptr<PublishedSampling> published_;  ///< once asked for
     std::vector<std::byte> key_, lastKey_;
     ViewBinding view_;
     gl::PassTimers timers_;
-    bool isCenterAlone_ = false;
+    bool isCenterAlone_ = false, wasPublished_ = false;
     bool wasStatic_ = false;
 };
 

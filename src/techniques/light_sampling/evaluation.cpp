@@ -22,8 +22,8 @@ void EvaluationOptions::describe(ParameterVisitor& visitor) {
         weighting, weightings);
 }
 
-SampleLookup::SampleLookup(Device& device, std::string file)
-    : device_(internalsOf(device)), file_(std::move(file)), constants_("light sampling lookups") {}
+SampleLookup::SampleLookup(Device& device, std::vector<std::string> files)
+    : device_(internalsOf(device)), files_(std::move(files)), constants_("light sampling lookups") {}
 
 std::vector<std::string> SampleLookup::Variant::defines() const {
     std::vector<std::string> defines = {"FILTER " + std::to_string(filter)};
@@ -34,16 +34,24 @@ std::vector<std::string> SampleLookup::Variant::defines() const {
     if (distant) defines.push_back("DISTANT");
     if (sphere) defines.push_back("SPHERE");
     if (cube) defines.push_back("CUBE");
+    if (box) defines.push_back("BOX_KERNEL");
+    if (volume) defines.push_back("VOLUME");
     return defines;
 }
 
 const gl::Program& SampleLookup::prepare(const AreaLight& light, const SampleCameras& cameras,
                                          const EvaluationOptions& options, const Features& features) {
-    const Variant variant{features, options.filter, light.shape == LightShape::distant,
-                          light.shape == LightShape::sphere && light.radius_m > 0, cameras.isCube};
+    const bool isBall = light.shape == LightShape::sphere && light.radius_m > 0;
+    const Variant variant{.features = features,
+                          .filter = options.filter,
+                          .distant = light.shape == LightShape::distant,
+                          .sphere = isBall && !options.emitsThroughout,
+                          .cube = cameras.isCube,
+                          .box = options.hasBoxKernel,
+                          .volume = isBall && options.emitsThroughout};
     auto found = programs_.find(variant);
     if (found == programs_.end()) {
-        found = programs_.emplace(variant, gl::Program(device_.shaders, {file_}, variant.defines())).first;
+        found = programs_.emplace(variant, gl::Program(device_.shaders, files_, variant.defines())).first;
     }
     LookupConstants constants{.light = lightConstants(light),
                               .near_m = float(cameras.near_m),
@@ -57,7 +65,7 @@ const gl::Program& SampleLookup::prepare(const AreaLight& light, const SampleCam
 }
 
 SampleEvaluation::SampleEvaluation(Device& device)
-    : lookup_(device, "src/techniques/light_sampling/evaluate.comp.glsl") {}
+    : lookup_(device, {"src/techniques/light_sampling/evaluate.comp.glsl"}) {}
 
 void SampleEvaluation::add(const ShadowInputs& inputs, const ViewBinding& view, const SampleCameras& cameras,
                            const EvaluationOptions& options, SampleMaps& maps, const Batch& batch,
@@ -90,6 +98,17 @@ void SampleEvaluation::add(const ShadowInputs& inputs, const ViewBinding& view, 
                                          .taps = batch.taps});
         pass.dispatchPixels(out.width_px(), out.height_px());
     }
+}
+
+void LatticeShares::set(bool hasCorners) {
+    const int perSide = 2 * (hasCorners ? latticeSide - 1 : latticeSide);
+    if (perSide == perSide_) return;
+    perSide_ = perSide;
+    cells_.clear();
+    for (const PatternPoint& cell : makePattern(SamplePattern::cells, perSide, 0, false))
+        cells_.emplace_back(glm::vec2(cell.cellMin), glm::vec2(cell.cellMax));
+    const std::vector<LightSample> shares(cells_.size(), {.weight = glm::vec4(1.0f / float(cells_.size()))});
+    shares_ = gl::Buffer(std::as_bytes(std::span(shares)), "light sampling cell shares");
 }
 
 RadianceWeights::RadianceWeights(Device& device)

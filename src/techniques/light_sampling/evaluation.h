@@ -16,9 +16,11 @@ namespace penumbra::light_sampling {
 /// What the parameters say about it.
 struct EvaluationOptions {
     enum Path { array, accumulation };
-    int path = array;   ///< all maps of a batch in one pass, or a pass a map
-    int filter = 1;     ///< a side of the kernel in texels, 1 to 3
-    int weighting = 0;  ///< 0: by area, 1: by irradiance
+    int path = array;              ///< all maps of a batch in one pass, or a pass a map
+    int filter = 1;                ///< a side of the kernel in texels, 1 to 3
+    int weighting = 0;             ///< 0: by area, 1: by irradiance
+    bool hasBoxKernel = false;     ///< 3 x 3 texels count alike; else a B-spline weighs them
+    bool emitsThroughout = false;  ///< a sphere shines from all of its inside
 
     void describe(ParameterVisitor& visitor);
 };
@@ -27,7 +29,7 @@ struct EvaluationOptions {
 /// told.
 class SampleLookup {
   public:
-    SampleLookup(Device& device, std::string file);
+    SampleLookup(Device& device, std::vector<std::string> files);
 
     /// What a caller wants of a program.
     struct Features {
@@ -47,13 +49,13 @@ class SampleLookup {
     struct Variant {
         Features features;
         int filter = 1;
-        bool distant = false, sphere = false, cube = false;
+        bool distant = false, sphere = false, cube = false, box = false, volume = false;
         auto operator<=>(const Variant&) const = default;
         std::vector<std::string> defines() const;
     };
 
     Device::Internals& device_;
-    std::string file_;
+    std::vector<std::string> files_;
     std::map<Variant, gl::Program> programs_;
     gl::ConstantBuffer<LookupConstants> constants_;
 };
@@ -95,6 +97,23 @@ class RadianceWeights {
   private:
     gl::Program program_;
     gl::StorageArray<glm::vec4> cells_;
+};
+
+/// The unit square in cells of which each of a sample's four quarters is a whole number, whatever quads there
+/// are around it: 34 a side, or 32 where the lattice has the square's corners.
+class LatticeShares {
+  public:
+    void set(bool hasCorners);
+
+    int perSide() const { return perSide_; }
+    std::span<const glm::vec4> cells() const { return cells_; }
+    /// LightSample by LightSample, in whose weights RadianceWeights leaves the radiance.
+    const gl::Buffer& buffer() const { return shares_; }
+
+  private:
+    int perSide_ = 0;
+    std::vector<glm::vec4> cells_;
+    gl::Buffer shares_;
 };
 
 }  // namespace penumbra::light_sampling

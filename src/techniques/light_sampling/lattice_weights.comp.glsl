@@ -8,7 +8,7 @@ layout(local_size_x = 320) in;
 
 layout(std430) buffer SubdivisionBlock { Subdivision subdivision; };
 layout(std430) buffer Samples { LightSample samples[]; };
-// A textured light's radiance over 34 x 34 cells, in `weight.rgb`: a quarter of what each vertex stands for at most.
+// A textured light's radiance over cells of the square, in `weight.rgb`: a quarter of what each vertex stands for at most.
 layout(std430) readonly buffer Cells { LightSample cells[]; };
 #include "src/techniques/light_sampling/subdivision.glsl"
 
@@ -22,7 +22,7 @@ shared bool isUsed[latticeVertices];
 vec3 radianceOf(ivec2 low, ivec2 high) {
     vec3 sum = vec3(0.0);
     for (int y = low.y; y < high.y; ++y) {
-        for (int x = low.x; x < high.x; ++x) sum += cells[y * 34 + x].weight.rgb;
+        for (int x = low.x; x < high.x; ++x) sum += cells[y * constants.cellsPerSide + x].weight.rgb;
     }
     return sum;
 }
@@ -35,10 +35,11 @@ struct Cell {
 
 Cell cellOf(int vertex) {
     ivec2 place = ivec2(vertex % latticeSide, vertex / latticeSide);
+    int cellsPerSide = constants.cellsPerSide, margin = (cellsPerSide - 2 * (latticeSide - 1)) / 2;
 
     // The integral over a leaf is its area times the mean of its corners, as for a bilinear function: each corner
-    // stands for the quarter of the leaf next to it, and on the lattice's rim for the margin beyond (vertices are the
-    // middles of 17 x 17 cells). Thus an even subdivision weighs all samples alike. A sample in the middle of a larger
+    // stands for the quarter of the leaf next to it, and on the lattice's rim for the margin beyond (where vertices are
+    // the middles of 17 x 17 cells). Thus an even subdivision weighs all samples alike. A sample in the middle of a larger
     // neighbour's edge counts in its own leaves alone.
     float area = 0.0;
     vec3 radiance = vec3(0.0);
@@ -53,13 +54,13 @@ Cell cellOf(int vertex) {
             if (any(lessThan(quad, ivec2(0))) || any(greaterThanEqual(quad, ivec2(1 << level)))) continue;
             if (!isLeaf(level, quad)) continue;
             deepest = level;
-            ivec2 low = 2 * place + 1 - corner * side;
+            ivec2 low = 2 * place + margin - corner * side;
             ivec2 high = low + side;
-            low = mix(low, ivec2(0), equal(low, ivec2(1)));
-            high = mix(high, ivec2(34), equal(high, ivec2(33)));
-            float part = float((high.x - low.x) * (high.y - low.y)) / (34.0 * 34.0);
+            low = mix(low, ivec2(0), equal(low, ivec2(margin)));
+            high = mix(high, ivec2(cellsPerSide), equal(high, ivec2(cellsPerSide - margin)));
+            float part = float((high.x - low.x) * (high.y - low.y)) / float(cellsPerSide * cellsPerSide);
             area += part;
-            moment += part * (0.5 * vec2(low + high) - vec2(2 * place + 1)) / 34.0;
+            moment += part * (0.5 * vec2(low + high) - vec2(2 * place + margin)) / float(cellsPerSide);
             if (constants.isTextured) radiance += radianceOf(low, high);
         }
     }

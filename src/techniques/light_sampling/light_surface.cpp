@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace penumbra::light_sampling {
 namespace {
@@ -148,13 +149,16 @@ InlineVector<glm::dvec3, 8> LightSurface::bounds() const {
     return corners;
 }
 
-std::pmr::vector<PatternPoint> makePattern(SamplePattern pattern, int perSide, int seed, bool equalWeights) {
+std::pmr::vector<PatternPoint> makePattern(SamplePattern pattern, int perSide, int seed, bool equalWeights,
+                                           double jitter) {
     std::pmr::vector<PatternPoint> points{gl::ObjectRegistryScope::frameMemory()};
     const int count = perSide * perSide;
     if (perSide == 1) {
         points.emplace_back();
         return points;
     }
+    std::mt19937 random;  // of the standard's own seed: the same numbers everywhere
+    const auto moved = [&] { return jitter / perSide * (double(random()) / double(random.max()) - 0.5); };
     const auto fraction = [](double x) { return x - std::floor(x); };
     for (int i = 0; i < count; ++i) {
         const glm::dvec2 cell(i % perSide, i / perSide);
@@ -187,10 +191,40 @@ std::pmr::vector<PatternPoint> makePattern(SamplePattern pattern, int perSide, i
         }
         const glm::dvec2 extent = point.cellMax - point.cellMin;
         const bool even = equalWeights || pattern == SamplePattern::sequence;
+        if (jitter > 0) {
+            const double x = moved(), y = moved();
+            point.square = glm::clamp(point.square + glm::dvec2(x, y), 0.0, 1.0);
+        }
         point.weight = even ? 1.0 / count : extent.x * extent.y;
         points.push_back(point);
     }
     return points;
+}
+
+std::vector<LightSample> ballSamples(double radius_m, int perSide) {
+    // A slice of the ball at the height h has the area pi (1 - h^2): the share below h is (2 + 3 h - h^3)
+    // / 4.
+    const auto heightAt = [](double share) {
+        double low = -1, high = 1;
+        for (int i = 0; i < 48; ++i) {
+            const double middle = 0.5 * (low + high);
+            (2 + middle * (3 - middle * middle) < 4 * share ? low : high) = middle;
+        }
+        return 0.5 * (low + high);
+    };
+    std::vector<LightSample> samples;
+    for (int z = 0; z < perSide; ++z) {
+        const double height = heightAt((z + 0.5) / perSide);
+        for (const PatternPoint& point : makePattern(SamplePattern::cells, perSide, 0, false)) {
+            const glm::dvec2 disk = std::sqrt(1 - height * height) * diskFromSquare(point.square);
+            samples.push_back({.place = glm::vec4(glm::vec3(radius_m * glm::dvec3(disk, height)), 1),
+                               .normal = glm::vec4(0),
+                               .weight = glm::vec4(1),
+                               .spanU = {},
+                               .spanV = {}});
+        }
+    }
+    return samples;
 }
 
 }  // namespace penumbra::light_sampling

@@ -53,6 +53,11 @@ struct PatternPoint {
     double weight = 1;  ///< share of the square's area
 };
 
-std::pmr::vector<PatternPoint> makePattern(SamplePattern pattern, int perSide, int seed, bool equalWeights);
+/// `jitter`: each point is moved at random, alike at each call, by up to half as many sides of a cell.
+std::pmr::vector<PatternPoint> makePattern(SamplePattern pattern, int perSide, int seed, bool equalWeights,
+                                           double jitter = 0);
+
+/// A ball that shines from all of its inside: the middles of n x n x n pieces of equal volume, of weight 1.
+std::vector<LightSample> ballSamples(double radius_m, int perSide);
 
 }  // namespace penumbra::light_sampling

@@ -26,7 +26,7 @@ double radiusOf(const AreaLight& light) {
 }  // namespace
 
 ReceiverTiles::ReceiverTiles(Device& device)
-    : lookup_(device, "src/techniques/light_sampling/receiver_tiles.comp.glsl"),
+    : lookup_(device, {"src/techniques/light_sampling/receiver_tiles.comp.glsl"}),
       all_(mostTiles * sizeof(ReceiverTile), "all receivers of light samples"),
       unsettled_(mostTiles * sizeof(ReceiverTile), "unsettled receivers of light samples"),
       redraw_(sizeof(RedrawGroups), "whether receivers of light samples have moved") {}

@@ -97,13 +97,14 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
         "light sampling draws");
 }
 
-void SampleMaps::planAll() {
+void SampleMaps::plan(std::span<const int> sampleOfSlot, int first) {
     SamplingPlan plan{};
-    const int count = int(identity_.size());
+    const int count = int(sampleOfSlot.size());
+    plan.stages[0] = {first, count - first, 1, 1};
     plan.stages[stageOfAll] = {0, count, 1, 1};
     plan.evaluated.x = count;
     plan_.write(std::as_bytes(std::span(&plan, 1)));
-    slots_.write(std::as_bytes(std::span(identity_)));
+    slots_.write(std::as_bytes(sampleOfSlot));
     order_.write(std::as_bytes(std::span(identity_)));
 }
 

@@ -30,8 +30,12 @@ class SampleMaps {
                  std::span<const LightSample> samples, const SampleCameras& cameras, int mapSize_px,
                  int expectedSamples);
 
-    /// The plan from the CPU: one stage of all samples, a slot each.
-    void planAll();
+    /// The plan from the CPU: slots hold these samples, in their order; stage 0 are those from `first` on.
+    void plan(std::span<const int> sampleOfSlot, int first);
+    /// One stage of all samples, a slot each.
+    void planAll() { plan(identity_, 0); }
+    /// The same samples as those that were prepared, with other weights.
+    void setSamples(std::span<const LightSample> samples) { samples_.write(std::as_bytes(samples)); }
 
     /// Whether all maps stay where they are, so that later stages do not overwrite earlier ones.
     bool isResident() const { return resident_; }

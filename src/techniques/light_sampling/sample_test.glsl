@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether a receiver sees samples of the light, and how much of the light each stands for.
-// Variants: DISTANT, SPHERE; CUBE, where receivers surround the light; FILTER 2 or 3, a side of the kernel in texels.
+// Variants: DISTANT, SPHERE; CUBE, where receivers surround the light; FILTER 2 or 3, a side of the kernel in texels,
+// BOX_KERNEL, whose texels count alike; VOLUME, a ball that shines from all of its inside.
 // LEAST_HEIGHT: how far a sample must be above the horizon to count, in parts of its distance.
 #ifndef LEAST_HEIGHT
 #define LEAST_HEIGHT 0.0
@@ -53,6 +54,12 @@ float countOf(LightSample light, Receiver receiver) {
     float cosine = -dot(light.normal.xyz, toSample) * inversesqrt(distance2);
     if (center2 < radius2) cosine = abs(cosine);
     float count = max(cosine, 0.0) * light.place.w * center2 / distance2 + 1e-4;
+    return sampling.isWeightedByIrradiance ? count * above * inversesqrt(distance2) : count;
+#elif defined(VOLUME)
+    // A piece of the volume shines alike in all directions: 1 / d^2, relative to the centre's.
+    float center2 = dot(receiver.posLight, receiver.posLight);
+    float radius = sampling.light.halfSize.x;
+    float count = (center2 + radius * radius) / max(distance2, 1e-6 * radius * radius);
     return sampling.isWeightedByIrradiance ? count * above * inversesqrt(distance2) : count;
 #else
     if (!sampling.isWeightedByIrradiance) return 1.0;
@@ -185,7 +192,13 @@ float sampleLit(int layer, Lookup lookup) {
     float size_px = float(textureSize(maps, 0).x);
     vec2 at = (place - tap.window.min) * tap.window.perExtent * size_px;
     if (!(all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(size_px))))) return 1.0;
-#if FILTER == 3
+#if FILTER == 3 && defined(BOX_KERNEL)
+    // The plain mean of 3 x 3 tests.
+    float lit = 0.0;
+    for (int i = 0; i < 9; ++i)
+        lit += texelLit(layer, tap, pos, normal, across, floor(at) + vec2(i % 3 - 1, i / 3 - 1), size_px);
+    return lit / 9.0;
+#elif FILTER == 3
     // Quadratic B-spline over 3 x 3 texels.
     vec2 middle = floor(at), f = at - middle - 0.5;
     vec2 weights[3] = vec2[3](0.5 * (0.5 - f) * (0.5 - f), 0.75 - f * f, 0.5 * (0.5 + f) * (0.5 + f));

@@ -42,9 +42,8 @@ SubdivisionPasses::SubdivisionPasses(Device& device)
       weigh_(internalsOf(device).shaders, file("lattice_weights.comp.glsl")),
       illustrate_(internalsOf(device).shaders, file("illustrate.comp.glsl")),
       illustrateQuads_(internalsOf(device).shaders, file("illustrate_quads.comp.glsl")),
-      compare_(device, file("compare.comp.glsl").front()),
-      tree_(sizeof(Subdivision), "light subdivision"),
-      noShares_(sizeof(LightSample), "no light sampling cell shares") {
+      compare_(device, file("compare.comp.glsl")),
+      tree_(sizeof(Subdivision), "light subdivision") {
     for (Readback& readback : readbacks_) {
         readback.subdivision = gl::Buffer(sizeof(Subdivision), "light subdivision readback");
         readback.plan = gl::Buffer(sizeof(SamplingPlan), "light sampling plan readback");
@@ -126,13 +125,14 @@ void SubdivisionPasses::examineError(const SubdivisionOptions& options) {
     examine(nullptr, options);
 }
 
-void SubdivisionPasses::weigh(const SampleMaps& maps, bool usesPaperWeights, const gl::Buffer* cellShares) {
+void SubdivisionPasses::weigh(const SampleMaps& maps, bool usesPaperWeights, const LatticeShares& shares,
+                              bool isTextured) {
     gl::Pass(weigh_)
-        .constants(LatticeWeightsConstants{.usesPaperWeights = usesPaperWeights,
-                                           .isTextured = cellShares != nullptr})
+        .constants(LatticeWeightsConstants{
+            .usesPaperWeights = usesPaperWeights, .isTextured = isTextured, .cellsPerSide = shares.perSide()})
         .bind("SubdivisionBlock", tree_)
         .bind("Samples", maps.samples())
-        .bind("Cells", cellShares != nullptr ? *cellShares : noShares_)
+        .bind("Cells", shares.buffer())
         .bind("Order", maps.order())
         .bind("Plan", maps.plan())
         .dispatch(1);

@@ -56,9 +56,8 @@ class SubdivisionPasses {
     void examineError(const SubdivisionOptions& options);
     void decide(const SampleMaps& maps, int round, const SubdivisionOptions& options);
 
-    /// Writes the samples' weights and order. `cellShares`: the radiance over 34 x 34 cells of a textured
-    /// light, or null.
-    void weigh(const SampleMaps& maps, bool usesPaperWeights, const gl::Buffer* cellShares);
+    /// Writes the samples' weights and order.
+    void weigh(const SampleMaps& maps, bool usesPaperWeights, const LatticeShares& shares, bool isTextured);
 
     /// The shadow values and the tree, for settled.glsl.
     void bindTo(gl::Pass& pass) const { pass.bind("shadowBits", bits_).bind("SubdivisionBlock", tree_); }
@@ -90,7 +89,7 @@ class SubdivisionPasses {
 
     gl::Program decide_, examine_, weigh_, illustrate_, illustrateQuads_;
     SampleLookup compare_;
-    gl::Buffer tree_, noShares_;
+    gl::Buffer tree_;
     gl::Texture bits_;
     mutable gl::Texture sums_, failing_, quads_;
     static constexpr int framesInFlight = 3;

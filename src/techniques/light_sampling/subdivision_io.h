@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The quadtree over the light, shared between C++ and GLSL (std430). Its vertices are the middles of 17 x 17
 // cells of the unit square, so that a full subdivision is uniform sampling with 17 x 17 samples and no sample
-// lies on the very rim, which the horizon of a receiver touches first. The corners of quads at level d are 16
+// lies on the very rim, which the horizon of a receiver touches first; or, as published, a lattice that has
+// the square's corners. The corners of quads at level d are 16
 // >> d apart. Quads of levels 0 to 3 can be split; level l starts at (4^l - 1) / 3, rows of 2^l quads each.
 #ifndef PENUMBRA_SUBDIVISION_IO_H
 #define PENUMBRA_SUBDIVISION_IO_H
@@ -51,6 +52,7 @@ SHARED_STRUCT ExamineConstants {
 SHARED_STRUCT LatticeWeightsConstants {
     bool32 usesPaperWeights;
     bool32 isTextured;
+    int cellsPerSide;  // see LatticeShares
 };
 
 #ifdef __cplusplus
