@@ -102,7 +102,7 @@ struct LightFiles {
 };
 
 LightFiles filesOf(const Scene& scene, std::vector<SidecarLight> lights, const std::string& stem,
-                   std::vector<SidecarNode> nodes) {
+                   SurfaceRules surfaces) {
     LightFiles files;
     const glm::dmat4 fileFromWorld = glm::inverse(scene.worldFromFile);
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -122,13 +122,14 @@ LightFiles filesOf(const Scene& scene, std::vector<SidecarLight> lights, const s
         lights[i].textureFile = fmt::format("{}.light{}.png", stem, i + 1);
         files.pictures.emplace_back(lights[i].textureFile, std::move(image));
     }
-    files.text = formatSidecar({.fileName = stem, .lights = std::move(lights), .nodes = std::move(nodes)});
+    files.text =
+        formatSidecar({.fileName = stem, .lights = std::move(lights), .surfaces = std::move(surfaces)});
     return files;
 }
 
-std::vector<SidecarNode> nodesOf(const fs::path& sidecar) {
+SurfaceRules surfacesOf(const fs::path& sidecar) {
     std::error_code error;
-    return fs::exists(sidecar, error) ? readSidecar(sidecar).nodes : std::vector<SidecarNode>();
+    return fs::exists(sidecar, error) ? readSidecar(sidecar).surfaces : SurfaceRules();
 }
 
 void write(const LightFiles& files, const fs::path& file) {
@@ -203,21 +204,21 @@ std::vector<SidecarLight> EditedLights::written() const {
 }
 
 void EditedLights::save(const Scene& scene, const fs::path& file) {
-    write(filesOf(scene, written(), file.stem().stem().string(), nodesOf(file)), file);
+    write(filesOf(scene, written(), file.stem().stem().string(), surfacesOf(file)), file);
     saved_ = state_;
 }
 
 fs::path EditedLights::snapshot(const Scene& scene, const fs::path& folder, const fs::path& sidecar) const {
     std::error_code error;
     fs::create_directories(folder, error);
-    const std::vector<SidecarNode> nodes = nodesOf(sidecar);
-    LightFiles files = filesOf(scene, written(), "lights", nodes);
+    const SurfaceRules surfaces = surfacesOf(sidecar);
+    LightFiles files = filesOf(scene, written(), "lights", surfaces);
     ContentHasher hasher;
     hasher.addArray(files.text);
     for (const auto& [name, picture] : files.pictures) hasher.addArray(picture.values);
     for (const auto& [name, text] : files.profiles) hasher.addArray(text);
     const std::string stem = hasher.hash().hex();
-    files = filesOf(scene, written(), stem, nodes);
+    files = filesOf(scene, written(), stem, surfaces);
     const fs::path file = folder / (stem + ".lights.json");
     if (!fs::exists(file, error)) write(files, file);
     return file;

@@ -286,8 +286,8 @@ TEST(EditedLights, KeepsWhatTheFileSaysOfNodesAndWritesTextures) {
     edited.apply(moment);
     edited.save(scene, folder / "a.lights.json");
     const Sidecar sidecar = readSidecar(folder / "a.lights.json");
-    ASSERT_EQ(sidecar.nodes.size(), 1u);
-    EXPECT_EQ(sidecar.nodes[0].casts, false);
+    ASSERT_EQ(sidecar.surfaces.nodes.size(), 1u);
+    EXPECT_EQ(sidecar.surfaces.nodes[0].casts, false);
     Scene again = makeBuiltin("textured-window");
     applySidecar(again, sidecar, folder.path());
     const Light light = again.at(0).lights.at(0);

@@ -39,17 +39,22 @@ struct SidecarLight {
     int nodeLine = 0, textureLine = 0;
 };
 
-/// What the file says about the nodes of a name.
-struct SidecarNode {
+/// What the file says about the nodes, or the materials, of a name or a pattern.
+struct SurfaceRule {
     std::string name;
     std::optional<bool> casts, receives;  ///< unset: as the scene has it
     int line = 0;
 };
 
+/// In the order of the file: later ones win. Those of nodes win over those of their materials.
+struct SurfaceRules {
+    std::vector<SurfaceRule> materials, nodes;
+};
+
 struct Sidecar {
     std::string fileName;                             ///< for messages
     std::optional<std::vector<SidecarLight>> lights;  ///< unset: the scene keeps its own
-    std::vector<SidecarNode> nodes;
+    SurfaceRules surfaces;
 };
 
 /// Parses the text of a sidecar. Whatever is not understood is an InputError of the form "FILE:LINE:
@@ -63,9 +68,10 @@ Sidecar readSidecar(const std::filesystem::path& file);
 /// the same floats; angles and the rotation may differ in the last bit, having been degrees and a quaternion.
 std::string formatSidecar(const Sidecar& sidecar);
 
-/// Replaces the scene's lights (if the sidecar has any say in them) and classifies its nodes, at all times. A
-/// light that hangs on a node follows its place and rotation, not its scale. Textures are read from beneath
-/// `folder` only. Throws InputError for an unknown or ambiguous node and for a texture that cannot be read.
+/// Replaces the scene's lights (if the sidecar has any say in them) and classifies its surfaces, at all
+/// times. A light that hangs on a node follows its place and rotation, not its scale. Textures are read from
+/// beneath `folder` only. Throws InputError for an unknown or ambiguous node and for a texture that cannot be
+/// read.
 void applySidecar(Scene& scene, const Sidecar& sidecar, const std::filesystem::path& folder);
 
 }  // namespace penumbra::studio

@@ -107,11 +107,15 @@ class ProfileLoader {
     std::map<std::string, std::shared_ptr<const LightProfile>> profiles_;
 };
 
-/// Which nodes of a scene have a name.
-class NodeIndex {
+struct SurfaceFlags {
+    std::optional<bool> casts, receives;
+};
+
+/// Which of a scene's nodes, or materials, have a name. `kind` is what one of them is called in messages.
+class NameIndex {
   public:
-    NodeIndex(const Scene& scene, std::string fileName)
-        : names_(scene.nodeNames), fileName_(std::move(fileName)) {
+    NameIndex(std::vector<std::string> names, std::string_view kind, std::string fileName)
+        : names_(std::move(names)), kind_(kind), fileName_(std::move(fileName)) {
         for (std::size_t i = 0; i < names_.size(); ++i) byName_[names_[i]].push_back(int(i));
     }
 
@@ -119,7 +123,7 @@ class NodeIndex {
         const auto found = byName_.find(name);
         if (found != byName_.end()) return found->second;
         const std::vector<std::string_view> names(names_.begin(), names_.end());
-        throw InputError(fmt::format("{}:{}: the scene has no node '{}'{}", fileName_, line, name,
+        throw InputError(fmt::format("{}:{}: the scene has no {} '{}'{}", fileName_, line, kind_, name,
                                      didYouMean(name, names)));
     }
 
@@ -127,23 +131,41 @@ class NodeIndex {
     std::vector<int> matching(const std::string& pattern, int line) const {
         if (byName_.contains(pattern) || pattern.find_first_of("*?") == std::string::npos)
             return all(pattern, line);
-        std::vector<int> nodes;
+        std::vector<int> all;
         for (const auto& [name, ofName] : byName_)
-            if (matchesWildcard(name, pattern)) nodes.insert(nodes.end(), ofName.begin(), ofName.end());
-        return nodes;
+            if (matchesWildcard(name, pattern)) all.insert(all.end(), ofName.begin(), ofName.end());
+        return all;
     }
 
     int one(const std::string& name, int line) const {
-        const std::vector<int>& nodes = all(name, line);
-        if (nodes.size() > 1)
+        const std::vector<int>& named = all(name, line);
+        if (named.size() > 1)
             throw InputError(
-                fmt::format("{}:{}: the scene has {} nodes named '{}'; a light can hang on one only",
-                            fileName_, line, nodes.size(), name));
-        return nodes[0];
+                fmt::format("{}:{}: the scene has {} {}s named '{}'; a light can hang on one only", fileName_,
+                            line, named.size(), kind_, name));
+        return named[0];
+    }
+
+    /// What the rules say, by index; a pattern that matches nothing becomes a warning.
+    std::map<int, SurfaceFlags> flagsOf(const std::vector<SurfaceRule>& rules,
+                                        std::vector<std::string>& warnings) const {
+        std::map<int, SurfaceFlags> flags;
+        for (const SurfaceRule& rule : rules) {
+            const std::vector<int> named = matching(rule.name, rule.line);
+            if (named.empty())
+                warnings.push_back(
+                    fmt::format("{}:{}: no {} is named '{}'", fileName_, rule.line, kind_, rule.name));
+            for (const int index : named) {
+                if (rule.casts) flags[index].casts = rule.casts;
+                if (rule.receives) flags[index].receives = rule.receives;
+            }
+        }
+        return flags;
     }
 
   private:
-    const std::vector<std::string>& names_;
+    std::vector<std::string> names_;
+    std::string_view kind_;
     std::string fileName_;
     std::map<std::string, std::vector<int>, std::less<>> byName_;
 };
@@ -171,23 +193,22 @@ std::optional<glm::dmat4> worldFromUnderside(const Scene& scene, const SceneMome
     return glm::translate(glm::dmat4(1), glm::dvec3(middle.x, bounds.min.y, middle.z));
 }
 
-struct NodeFlags {
-    std::optional<bool> casts, receives;
-};
-
 class SidecarMotion : public Scene::Motion {
   public:
     SidecarMotion(std::shared_ptr<const Scene::Motion> inner,
-                  std::optional<std::vector<AttachedLight>> lights, std::map<int, NodeFlags> flags)
-        : inner_(std::move(inner)), lights_(std::move(lights)), flags_(std::move(flags)) {}
+                  std::optional<std::vector<AttachedLight>> lights, std::map<int, SurfaceFlags> ofMaterials,
+                  std::map<int, SurfaceFlags> ofNodes)
+        : inner_(std::move(inner)),
+          lights_(std::move(lights)),
+          ofMaterials_(std::move(ofMaterials)),
+          ofNodes_(std::move(ofNodes)) {}
 
     SceneMoment at(const Scene& scene, double time_s) const override {
         SceneMoment moment = inner_->at(scene, time_s);
-        for (Instance& instance : moment.instances)
-            if (const auto found = flags_.find(instance.node); found != flags_.end()) {
-                instance.casts = found->second.casts.value_or(instance.casts);
-                instance.receives = found->second.receives.value_or(instance.receives);
-            }
+        for (Instance& instance : moment.instances) {
+            setFlags(ofMaterials_, scene.meshes[std::size_t(instance.mesh)].material, instance);
+            setFlags(ofNodes_, instance.node, instance);
+        }
         if (lights_) {
             moment.lights.clear();
             for (const AttachedLight& attached : *lights_) {
@@ -205,6 +226,13 @@ class SidecarMotion : public Scene::Motion {
     }
 
   private:
+    static void setFlags(const std::map<int, SurfaceFlags>& flags, int index, Instance& instance) {
+        const auto found = flags.find(index);
+        if (found == flags.end()) return;
+        instance.casts = found->second.casts.value_or(instance.casts);
+        instance.receives = found->second.receives.value_or(instance.receives);
+    }
+
     static glm::dmat4 worldFromParentOf(const AttachedLight& attached, const Scene& scene,
                                         const SceneMoment& moment) {
         if (attached.isBelow) return worldFromUnderside(scene, moment, *attached.node).value();
@@ -214,7 +242,7 @@ class SidecarMotion : public Scene::Motion {
 
     std::shared_ptr<const Scene::Motion> inner_;
     std::optional<std::vector<AttachedLight>> lights_;
-    std::map<int, NodeFlags> flags_;  ///< by node
+    std::map<int, SurfaceFlags> ofMaterials_, ofNodes_;  ///< by index
 };
 
 }  // namespace
@@ -225,18 +253,12 @@ Sidecar readSidecar(const fs::path& file) {
 }
 
 void applySidecar(Scene& scene, const Sidecar& sidecar, const fs::path& folder) {
-    const NodeIndex nodes(scene, sidecar.fileName);
-    std::map<int, NodeFlags> flags;
-    for (const SidecarNode& node : sidecar.nodes) {
-        const std::vector<int> matching = nodes.matching(node.name, node.line);
-        if (matching.empty())
-            scene.warnings.push_back(
-                fmt::format("{}:{}: no node is named '{}'", sidecar.fileName, node.line, node.name));
-        for (const int index : matching) {
-            if (node.casts) flags[index].casts = node.casts;
-            if (node.receives) flags[index].receives = node.receives;
-        }
-    }
+    std::vector<std::string> materialNames;
+    for (const Material& material : scene.materials) materialNames.push_back(material.name);
+    const NameIndex materials(std::move(materialNames), "material", sidecar.fileName);
+    const NameIndex nodes(scene.nodeNames, "node", sidecar.fileName);
+    std::map<int, SurfaceFlags> ofMaterials = materials.flagsOf(sidecar.surfaces.materials, scene.warnings);
+    std::map<int, SurfaceFlags> ofNodes = nodes.flagsOf(sidecar.surfaces.nodes, scene.warnings);
 
     std::optional<std::vector<AttachedLight>> lights;
     if (sidecar.lights) {
@@ -260,7 +282,8 @@ void applySidecar(Scene& scene, const Sidecar& sidecar, const fs::path& folder) 
             lights->push_back(std::move(attached));
         }
     }
-    scene.motion = std::make_shared<SidecarMotion>(scene.motion, std::move(lights), std::move(flags));
+    scene.motion = std::make_shared<SidecarMotion>(scene.motion, std::move(lights), std::move(ofMaterials),
+                                                   std::move(ofNodes));
 }
 
 }  // namespace penumbra::studio

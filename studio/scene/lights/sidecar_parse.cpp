@@ -250,13 +250,21 @@ SidecarLight readLight(const LinedJson& document, const JsonView& object) {
     return read;
 }
 
-SidecarNode readNode(const LinedJson& document, const JsonView& object, const std::string& name) {
+/// The rules of `nodes` or `materials`, one of which is a `kind`.
+std::vector<SurfaceRule> readRules(const LinedJson& document, const JsonView& root, std::string_view key,
+                                   std::string_view kind) {
     constexpr std::array<std::string_view, 2> keys{"casts", "receives"};
-    document.checkKeys(object, keys, fmt::format("node '{}'", name));
-    SidecarNode node{name, {}, {}, document.lineOf(object)};
-    if (const auto casts = object.find("casts")) node.casts = casts->asBoolean();
-    if (const auto receives = object.find("receives")) node.receives = receives->asBoolean();
-    return node;
+    std::vector<SurfaceRule> rules;
+    const auto named = root.find(key);
+    if (!named) return rules;
+    for (const std::string& name : document.keysInOrder(*named)) {
+        const JsonView object = named->at(name);
+        document.checkKeys(object, keys, fmt::format("{} '{}'", kind, name));
+        SurfaceRule& rule = rules.emplace_back(SurfaceRule{name, {}, {}, document.lineOf(object)});
+        if (const auto casts = object.find("casts")) rule.casts = casts->asBoolean();
+        if (const auto receives = object.find("receives")) rule.receives = receives->asBoolean();
+    }
+    return rules;
 }
 
 std::vector<SidecarLight> readLights(const LinedJson& document, const JsonView& list) {
@@ -275,7 +283,7 @@ std::vector<SidecarLight> readLights(const LinedJson& document, const JsonView& 
 Sidecar parseSidecar(std::string_view json, const std::string& fileName) {
     const LinedJson document(json, fileName);
     const JsonView root = document.root();
-    constexpr std::array<std::string_view, 4> keys{"$schema", "version", "lights", "nodes"};
+    constexpr std::array<std::string_view, 5> keys{"$schema", "version", "lights", "nodes", "materials"};
     document.checkKeys(root, keys, "the file");
     const auto version = root.find("version");
     if (!version) root.fail("the file needs a \"version\": 1");
@@ -285,9 +293,8 @@ Sidecar parseSidecar(std::string_view json, const std::string& fileName) {
 
     Sidecar sidecar{fileName, {}, {}};
     if (const auto lights = root.find("lights")) sidecar.lights = readLights(document, *lights);
-    if (const auto nodes = root.find("nodes"))
-        for (const std::string& name : document.keysInOrder(*nodes))
-            sidecar.nodes.push_back(readNode(document, nodes->at(name), name));
+    sidecar.surfaces = {readRules(document, root, "materials", "material"),
+                        readRules(document, root, "nodes", "node")};
     return sidecar;
 }
 

@@ -118,7 +118,8 @@ TEST(Sidecar, WhatIsWrittenReadsBackTheSame) {
        "shaping:cone:softness": 0.25, "shadow:enable": false},
       {"name": "c", "type": "SphereLight", "radius": 0, "intensity": 0, "node": "Lamp"},
       {"name": "d", "type": "DistantLight", "angle": 0.53}],
-      "nodes": {"Sky": {"casts": false}, "Floor": {"casts": true, "receives": false}}})",
+      "nodes": {"Sky": {"casts": false}, "Floor": {"casts": true, "receives": false}},
+      "materials": {"Glass*": {"casts": false}}})",
                                          "a.lights.json");
     const std::string text = formatSidecar(written);
     const Sidecar read = parseSidecar(text, "b.lights.json");
@@ -147,13 +148,16 @@ TEST(Sidecar, WhatIsWrittenReadsBackTheSame) {
         EXPECT_EQ(a.node, b.node);
         EXPECT_EQ(a.textureFile, b.textureFile);
     }
-    ASSERT_EQ(read.nodes.size(), 2u);
-    EXPECT_EQ(read.nodes[0].name, "Sky");
-    EXPECT_EQ(read.nodes[0].casts, false);
-    EXPECT_FALSE(read.nodes[0].receives);
-    EXPECT_EQ(read.nodes[1].receives, false);
+    ASSERT_EQ(read.surfaces.nodes.size(), 2u);
+    EXPECT_EQ(read.surfaces.nodes[0].name, "Sky");
+    EXPECT_EQ(read.surfaces.nodes[0].casts, false);
+    EXPECT_FALSE(read.surfaces.nodes[0].receives);
+    EXPECT_EQ(read.surfaces.nodes[1].receives, false);
+    ASSERT_EQ(read.surfaces.materials.size(), 1u);
+    EXPECT_EQ(read.surfaces.materials[0].name, "Glass*");
+    EXPECT_EQ(read.surfaces.materials[0].casts, false);
     // A sidecar that says nothing about lights still says nothing.
-    EXPECT_FALSE(parseSidecar(formatSidecar({.fileName = "c", .lights = {}, .nodes = {}}), "c").lights);
+    EXPECT_FALSE(parseSidecar(formatSidecar({.fileName = "c", .lights = {}, .surfaces = {}}), "c").lights);
     EXPECT_TRUE(parseSidecar(formatSidecar({.lights = std::vector<SidecarLight>()}), "c").lights->empty());
 }
 
@@ -223,9 +227,9 @@ TEST(Sidecar, FlagsAndNodes) {
     EXPECT_FALSE(light.castsShadow);
     const Sidecar sidecar = parseSidecar(R"({"version": 1, "nodes": {"Sky": {"casts": false}}})", "f");
     EXPECT_FALSE(sidecar.lights) << "no say in the lights";
-    ASSERT_EQ(sidecar.nodes.size(), 1u);
-    EXPECT_EQ(sidecar.nodes[0].casts, false);
-    EXPECT_FALSE(sidecar.nodes[0].receives.has_value());
+    ASSERT_EQ(sidecar.surfaces.nodes.size(), 1u);
+    EXPECT_EQ(sidecar.surfaces.nodes[0].casts, false);
+    EXPECT_FALSE(sidecar.surfaces.nodes[0].receives.has_value());
 }
 
 TEST(Sidecar, ErrorsSayWhereAndWhatToDo) {
@@ -333,7 +337,7 @@ class TwoNodes : public Scene::Motion {
         // A quarter turn about Y (x to -z), scaled by 2 and mirrored in its own x.
         const glm::mat4 lamp({0, 0, 2, 0}, {0, 2, 0, 0}, {2, 0, 0, 0}, {float(time_s), 1, 0, 1});
         moment.worldFromNode = {glm::mat4(1), lamp};
-        moment.instances = {{0, 0, glm::mat4(1)}, {0, 1, lamp}};
+        moment.instances = {{0, 0, glm::mat4(1)}, {1, 1, lamp}};
         moment.lights = {Light{.name = "of the file"}};
         return moment;
     }
@@ -342,6 +346,8 @@ class TwoNodes : public Scene::Motion {
 Scene twoNodes() {
     Scene scene;
     scene.nodeNames = {"Sky", "Lamp"};
+    scene.materials = {{.name = "Blue"}, {.name = "Glass 1"}};
+    scene.meshes = {{.name = "dome"}, {.name = "globe", .material = 1}};
     scene.motion = std::make_shared<TwoNodes>();
     return scene;
 }
@@ -407,6 +413,27 @@ TEST(SidecarOnAScene, PatternsNameManyNodesAndNobodyIsTold) {
     EXPECT_FALSE(moment.instances[1].casts);
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_EQ(scene.warnings[0], "f:1: no node is named 'Ifc*'");
+}
+
+TEST(SidecarOnAScene, RulesOfMaterialsYieldToThoseOfNodes) {
+    const auto lampOf = [](const std::string& rules) {
+        Scene scene = twoNodes();
+        applySidecar(scene, parseSidecar("{\"version\": 1, " + rules + "}", "f"), ".");
+        EXPECT_TRUE(scene.at(0).instances[0].casts) << "of another material";
+        return scene.at(0).instances[1];
+    };
+    EXPECT_FALSE(lampOf(R"("materials": {"Glass*": {"casts": false}})").casts);
+    EXPECT_FALSE(lampOf(R"("materials": {"Glass 1": {"receives": false}})").receives);
+    EXPECT_TRUE(
+        lampOf(R"("nodes": {"Lamp": {"casts": true}}, "materials": {"Glass*": {"casts": false}})").casts);
+
+    Scene scene = twoNodes();
+    applySidecar(scene, parseSidecar(R"({"version": 1, "materials": {"Ifc*": {"casts": false}}})", "f"), ".");
+    EXPECT_EQ(scene.warnings, std::vector<std::string>{"f:1: no material is named 'Ifc*'"});
+    EXPECT_EQ(applyErrorOf(R"({"version": 1, "materials": {"Glas 1": {}}})"),
+              "chair.lights.json:1: the scene has no material 'Glas 1'; did you mean 'Glass 1'?");
+    EXPECT_EQ(errorOf(R"({"version": 1, "materials": {"A": {"cast": true}}})"),
+              "chair.lights.json:1: unknown key 'cast' in material 'A'; did you mean 'casts'?");
 }
 
 TEST(SidecarOnAScene, WithoutLightsKeepsThemAndClassifiesNodes) {

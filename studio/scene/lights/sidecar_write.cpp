@@ -113,11 +113,16 @@ Json write(const SidecarLight& written) {
     return json;
 }
 
-Json write(const SidecarNode& node) {
+/// As the value of a key, or nothing where there are none.
+std::string write(std::string_view key, const std::vector<SurfaceRule>& rules) {
+    if (rules.empty()) return "";
     Json json = Json::object();
-    if (node.casts) json["casts"] = *node.casts;
-    if (node.receives) json["receives"] = *node.receives;
-    return json;
+    for (const SurfaceRule& rule : rules) {
+        Json& written = json[rule.name] = Json::object();
+        if (rule.casts) written["casts"] = *rule.casts;
+        if (rule.receives) written["receives"] = *rule.receives;
+    }
+    return fmt::format(",\n  \"{}\": {}", key, json.dump());
 }
 
 }  // namespace
@@ -132,11 +137,8 @@ std::string formatSidecar(const Sidecar& sidecar) {
         }
         text += sidecar.lights->empty() ? "]" : "\n  ]";
     }
-    if (!sidecar.nodes.empty()) {
-        Json nodes = Json::object();
-        for (const SidecarNode& node : sidecar.nodes) nodes[node.name] = write(node);
-        text += ",\n  \"nodes\": " + nodes.dump();
-    }
+    text += write("materials", sidecar.surfaces.materials);
+    text += write("nodes", sidecar.surfaces.nodes);
     return text + "\n}\n";
 }
 
