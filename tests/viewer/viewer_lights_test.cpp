@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights by hand in the window, and what was done undone.
+
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "studio/image/image_io.h"
+#include "tests/viewer/viewer_fixture.h"
+
+namespace penumbra::studio::viewer {
+namespace {
+
+glm::vec3 placeOfLight(const Session& session, std::size_t index = 0) {
+    const Light& light = session.document().moment().lights.at(index);
+    return glm::vec3(std::bit_cast<glm::mat4>(light.shape.worldFromLight)[3]);
+}
+
+TEST_F(ViewerTest, LightsAreAddedEditedAndSaved) {
+    start(writeScene("box.gltf"));
+    const std::size_t before = session().document().moment().lights.size();
+    const Image first = picture();
+    clickWidget("Add");
+    ASSERT_EQ(session().document().moment().lights.size(), before + 1);
+    EXPECT_GT(shareOfDifferent(first, picture()), 0.001);
+    clickWidget("Duplicate");
+    EXPECT_EQ(session().document().moment().lights.size(), before + 2);
+    clickWidget("Delete");
+    EXPECT_EQ(session().document().moment().lights.size(), before + 1);
+    clickWidget("casts shadow", 0.1);
+    EXPECT_FALSE(session().document().moment().lights[session().choices().light].castsShadow);
+    const Image edited = picture();
+
+    key("ctrl+s");
+    EXPECT_TRUE(std::filesystem::exists(at("box.lights.json"))) << viewer().windowState().message;
+    EXPECT_FALSE(session().document().lights().unsaved());
+    viewer_.reset();
+    start(at("box.gltf"));
+    EXPECT_EQ(session().document().moment().lights.size(), before + 1);
+    EXPECT_EQ(largestDifference(edited, picture()), 0);
+}
+
+TEST_F(ViewerTest, WhatWasDoneIsUndoneAndRedone) {
+    start(writeScene("box.gltf"), "pcf");
+    const std::size_t before = session().document().moment().lights.size();
+    const Image first = picture();
+    clickWidget("Add");
+    clickWidget("casts shadow", 0.1);
+    clickWidget("map size (texels)##map_size", 0.2);
+    key("1");
+    const Work done = session().work();
+    const Image last = picture();
+
+    key("ctrl+z");
+    EXPECT_EQ(session().choices().technique, "pcf");
+    key("ctrl+z");
+    EXPECT_TRUE(session().techniques().changes("pcf").empty());
+    key("ctrl+z");
+    EXPECT_TRUE(session().document().moment().lights.back().castsShadow);
+    key("ctrl+z");
+    EXPECT_EQ(session().document().moment().lights.size(), before);
+    EXPECT_FALSE(session().document().lights().unsaved());
+    EXPECT_EQ(largestDifference(first, picture()), 0);
+    key("ctrl+z");  // nothing is left
+    for (int step = 0; step < 4; ++step) key("ctrl+shift+z");
+    EXPECT_EQ(session().work(), done);
+    EXPECT_EQ(largestDifference(last, picture()), 0);
+}
+
+TEST_F(ViewerTest, ADragIsOneStep) {
+    start("two-boxes");
+    const std::vector<Light> before = session().document().moment().lights;
+    clickWidget("Duplicate");
+    const Work doubled = session().work();
+    ASSERT_NE(widget("width (m)"), nullptr);
+    const PlacedWidget size = *widget("width (m)");
+    const float y = 0.5f * (size.min.y + size.max.y);
+    const auto place = [&](double share) {
+        return "mousemove " + std::to_string(int(size.min.x + share * (size.max.x - size.min.x))) + " " +
+               std::to_string(int(y));
+    };
+    Display::input(place(0.3) + " mousedown 1");
+    frames();
+    for (const double share : {0.4, 0.5, 0.6}) {
+        Display::input(place(share));
+        frames();
+    }
+    Display::input("mouseup 1");
+    frames();
+    ASSERT_NE(session().work(), doubled);
+    key("ctrl+z");
+    EXPECT_EQ(session().work(), doubled);
+}
+
+TEST_F(ViewerTest, LeavingUnsavedLightsAsks) {
+    start(writeScene("box.gltf"));
+    clickWidget("Add");
+    const std::size_t count = session().document().moment().lights.size();
+    key("ctrl+q");
+    ASSERT_TRUE(viewer().windowState().leaving);
+    clickWidget("Stay");
+    EXPECT_FALSE(viewer().windowState().leaving);
+    EXPECT_EQ(session().document().moment().lights.size(), count);
+    ASSERT_TRUE(viewer().frame(false));
+
+    const std::string other = writeScene("other.gltf");
+    const char* paths[] = {other.c_str()};
+    GLFWwindow* window = viewer().window().handle();
+    const GLFWdropfun drop = glfwSetDropCallback(window, nullptr);
+    glfwSetDropCallback(window, drop);
+    drop(window, 1, paths);
+    frames();
+    ASSERT_TRUE(viewer().windowState().leaving);
+    EXPECT_EQ(session().document().nameOrPath(), at("box.gltf"));
+    clickWidget("Save lights and go on");
+    EXPECT_TRUE(std::filesystem::exists(at("box.lights.json")));
+    EXPECT_EQ(session().document().nameOrPath(), other);
+
+    clickWidget("Add");
+    paths[0] = "two-boxes";
+    drop(window, 1, paths);
+    frames();
+    clickWidget("Drop the changes");
+    EXPECT_EQ(session().document().nameOrPath(), "two-boxes");
+    EXPECT_FALSE(std::filesystem::exists(at("other.lights.json")));
+}
+
+TEST_F(ViewerTest, LightsMoveTurnAndGrowByHand) {
+    start("two-boxes");
+    const CanvasPlace& place = viewer().canvasPlace();
+    // Takes hold of the handle's last point and moves it by a tenth of the canvas.
+    const auto pull = [&](Gizmo::Axis axis) {
+        const Projection projection(session().cameraView(), {place.size.x, place.size.y});
+        const auto handles =
+            Gizmo::handles(session().document().moment().lights.at(0), viewer().windowState().gizmoMode,
+                           projection, session().document().bounds(), 1);
+        const auto handle = std::ranges::find(handles, axis, &Gizmo::Handle::axis);
+        ASSERT_NE(handle, handles.end());
+        const glm::vec2 at = handle->line_px.back() / glm::vec2(place.size.x, place.size.y);
+        ASSERT_TRUE(at.x > 0 && at.x < 1 && at.y > 0 && at.y < 1) << "the light must be in the picture";
+        const glm::vec2 along = glm::normalize(handle->line_px.back() - handle->line_px.front());
+        drag(at.x, at.y, at.x + 0.1 * along.x, at.y + 0.1 * along.y);
+    };
+    session().editLights({rectLight("key", 1, 0.5f, {0.4f, 1.6f, 0.5f}, {0, 0, 0}, 700)});
+    session().freeCamera().frame({{-2, -1, -2}, {2, 3, 2}}, 0.5f);
+    session().changedView();
+    frames();
+    const Image before = picture();
+    const glm::vec3 from = placeOfLight(session());
+    pull(Gizmo::Axis::x);
+    EXPECT_GT(placeOfLight(session()).x, from.x + 0.05f);
+    EXPECT_NEAR(placeOfLight(session()).y, from.y, 1e-4f);
+    EXPECT_GT(shareOfDifferent(before, picture()), 0.01);
+
+    key("s");
+    const float width_m = session().document().moment().lights[0].shape.width_m;
+    pull(Gizmo::Axis::x);
+    EXPECT_GT(session().document().moment().lights[0].shape.width_m, width_m + 0.05f);
+
+    key("t");
+    const Mat4 direction = session().document().moment().lights[0].shape.worldFromLight;
+    const Projection projection(session().cameraView(), {place.size.x, place.size.y});
+    const auto rings = Gizmo::handles(session().document().moment().lights.at(0), Gizmo::Mode::turn,
+                                      projection, session().document().bounds(), 1);
+    const glm::vec2 size(place.size.x, place.size.y);
+    const glm::vec2 a = rings.at(0).line_px.at(2) / size, b = rings.at(0).line_px.at(12) / size;
+    drag(a.x, a.y, b.x, b.y);
+    EXPECT_NE(session().document().moment().lights[0].shape.worldFromLight, direction);
+}
+
+}  // namespace
+}  // namespace penumbra::studio::viewer
