@@ -158,6 +158,20 @@ TEST_F(CommandTest, OneLightsVisibilityIsChannelV) {
     EXPECT_EQ(readExr(at("v.exr")).channels.front().name, "V");
 }
 
+TEST_F(CommandTest, ALightThatLightsNothingIsToldOf) {
+    write("in.lights.json", R"({"version": 1, "lights": [
+        {"name": "lost", "type": "SphereLight", "radius": 0.05, "translation": [-0.75, 2, 0]},
+        {"name": "fine", "type": "SphereLight", "radius": 0.05, "translation": [0, 3, 0]}]})");
+    const Outcome outcome = run("render two-boxes -t exact --size 32x24 --frames 1-2 --lights " +
+                                at("in.lights.json") + " -o " + at("#.png"));
+    EXPECT_EQ(outcome.exitCode, 0);
+    const std::string warning = "light 'lost' lights nothing of the picture: 'box 1' encloses it";
+    const auto first = outcome.err.find(warning);
+    ASSERT_NE(first, std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find(warning, first + 1), std::string::npos) << "once";
+    EXPECT_EQ(outcome.err.find("'fine'"), std::string::npos) << outcome.err;
+}
+
 TEST_F(CommandTest, ExrIsLinearRadiance) {
     ASSERT_EQ(run("render two-boxes -t hard --size 32x32 -o " + at("a.exr")).exitCode, 0);
     const ExrPicture picture = readExr(at("a.exr"));

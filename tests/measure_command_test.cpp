@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `penumbra measure` as a script meets it: what it answers, what it leaves, and what it says of bad input.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 

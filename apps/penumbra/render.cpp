@@ -8,6 +8,7 @@
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "apps/penumbra/arguments.h"
 #include "apps/penumbra/asked_for.h"
@@ -16,6 +17,7 @@
 #include "studio/errors.h"
 #include "studio/image/downsample.h"
 #include "studio/image/image_io.h"
+#include "studio/scene/dark_light.h"
 #include "studio/workbench/progress.h"
 #include "studio/workbench/reference_technique.h"
 #include "studio/workbench/settle.h"
@@ -290,6 +292,7 @@ class RenderCommand {
         const Camera& camera = arguments_.scene.cameraIn(scene, moment);
         if (!std::exchange(isSettled_, true)) settle(workbench, techniqueOf, moment, camera, drawn);
         TechniqueResult result = workbench.run(arguments_.technique, techniqueOf, moment, camera, drawn);
+        warnOfDarkLights(scene, moment, result);
         downsample(result, factor);
         stateExposure(metadata_, result.exposureValue);
         if (!outputs.picture.empty()) writePicture(outputs.picture, result, metadata_);
@@ -310,8 +313,31 @@ class RenderCommand {
         }
     }
 
+    /// Of each light once, however many frames there are.
+    void warnOfDarkLights(const Scene& scene, const SceneMoment& moment, const TechniqueResult& result) {
+        for (std::size_t i = 0; i < result.lights.size(); ++i) {
+            if (!isDark(result.lights[i]) || !darkLights_.insert(result.lights[i].light).second) continue;
+            spdlog::warn("light '{}' lights nothing of the picture{}", result.lights[i].light,
+                         whyDark(scene, moment, moment.lights[i]));
+        }
+    }
+
+    /// It would reach what is seen, were nothing in its way.
+    static bool isDark(const LightResult& light) {
+        const auto channels = std::size_t(light.visibility.channels);
+        bool isReached = false;
+        for (std::size_t i = 0; i < light.reach.values.size(); ++i) {
+            if (!(light.reach.values[i] > 0)) continue;
+            isReached = true;
+            for (std::size_t k = 0; k < channels; ++k)
+                if (light.visibility.values[i * channels + k] > 0) return false;
+        }
+        return isReached;
+    }
+
     const RenderArguments& arguments_;
     Metadata metadata_;
+    std::set<std::string> darkLights_;
     bool isSettled_ = false;  ///< an animation's later frames follow from the first
     nlohmann::ordered_json report_;
 };
