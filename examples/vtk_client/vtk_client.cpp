@@ -2,8 +2,7 @@
 // Somebody else's renderer, with shadows: a VTK scene, drawn and lit by VTK, whose own depth buffer Penumbra
 // reads after each frame. What the lamp's light adds to a pixel is scaled by what of the lamp the pixel sees.
 //
-//     vtk_client [--technique NAME] [--screenshot picture.png] [--no-shadows]
-#include <epoxy/gl.h>
+//     vtk_client [--technique NAME] [--screenshot picture.png] [--no-shadows] [--samples N]
 #include <penumbra/penumbra.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -16,7 +15,6 @@
 #include <vtkNew.h>
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLRenderWindow.h>
-#include <vtkOpenGLState.h>
 #include <vtkPNGWriter.h>
 #include <vtkPlaneSource.h>
 #include <vtkPointData.h>
@@ -33,23 +31,15 @@
 #include <vtkWindowToImageFilter.h>
 
 #include <array>
-#include <cstring>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace {
 
 penumbra::Mat4 toPenumbra(vtkMatrix4x4* matrix) {
-    penumbra::Mat4 result;
-    for (int row = 0; row < 4; ++row) {
-        for (int column = 0; column < 4; ++column) {
-            result.columns[std::size_t(column)][std::size_t(row)] = float(matrix->GetElement(row, column));
-        }
-    }
-    return result;
+    return penumbra::Mat4::fromRows(matrix->GetData());
 }
 
 penumbra::Mesh toPenumbra(penumbra::Device& device, vtkPolyData* data) {
@@ -102,55 +92,37 @@ class ShadowPass final : public vtkCommand {
     void Execute(vtkObject* caller, unsigned long, void*) override {
         auto* const renderer = static_cast<vtkRenderer*>(caller);
         auto* const window = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow());
-        if (!device_) start(renderer);
-        const int* const size = window->GetSize();
-        if (!visibility_) visibility_.emplace(*device_, size[0], size[1]);
-        visibility_->resize(size[0], size[1]);
-        technique_->render({viewOf(renderer, window), lamp_.areaLight(), casters_}, *visibility_);
-        multiply(window);
+        if (!drawing_) drawing_ = std::make_unique<Drawing>(name_, renderer);
+        const penumbra::View view = viewOf(renderer, window);
+        drawing_->visibility.resize(view.width_px, view.height_px);
+        drawing_->technique->render({view, lamp_.areaLight(), drawing_->casters}, drawing_->visibility);
+        drawing_->framebuffer.multiply(window->GetRenderFramebuffer()->GetFBOIndex(), view,
+                                       drawing_->visibility, 0.16f);
     }
 
     /// While the window's context still lives.
-    void finish() {
-        meshes_.clear();
-        visibility_.reset();
-        technique_.reset();
-        device_.reset();
-    }
+    void finish() { drawing_.reset(); }
 
   private:
-    void start(vtkRenderer* renderer) {
-        device_.emplace();
-        technique_ = penumbra::makeTechnique(*device_, name_);
-        vtkActorCollection* const actors = renderer->GetActors();
-        actors->InitTraversal();
-        while (vtkActor* const actor = actors->GetNextActor()) {
-            meshes_.push_back(std::make_unique<penumbra::Mesh>(
-                toPenumbra(*device_, vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput()))));
-            casters_.push_back(
-                {.mesh = meshes_.back().get(), .worldFromMesh = toPenumbra(actor->GetMatrix())});
+    struct Drawing {
+        Drawing(const std::string& name, vtkRenderer* renderer)
+            : technique(penumbra::makeTechnique(device, name)) {
+            vtkActorCollection* const actors = renderer->GetActors();
+            actors->InitTraversal();
+            while (vtkActor* const actor = actors->GetNextActor()) {
+                meshes.push_back(std::make_unique<penumbra::Mesh>(
+                    toPenumbra(device, vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput()))));
+                casters.push_back(
+                    {.mesh = meshes.back().get(), .worldFromMesh = toPenumbra(actor->GetMatrix())});
+            }
         }
-        const char* const vertex =
-            "#version 450\nvoid main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 "
-            "? 3.0 : "
-            "-1.0, 0.0, 1.0); }\n";
-        const char* const fragment =
-            "#version 450\nlayout(binding = 0) uniform sampler2D visibility; layout(location = 0) out vec4 "
-            "factor;\n"
-            "void main() { factor = vec4(mix(0.16, 1.0, texelFetch(visibility, ivec2(gl_FragCoord.xy), "
-            "0).r)); }\n";
-        program_ = glCreateProgram();
-        for (const auto& [stage, text] :
-             {std::pair{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}) {
-            const GLuint shader = glCreateShader(GLenum(stage));
-            glShaderSource(shader, 1, &text, nullptr);
-            glCompileShader(shader);
-            glAttachShader(program_, shader);
-            glDeleteShader(shader);
-        }
-        glLinkProgram(program_);
-        glCreateVertexArrays(1, &noVertices_);
-    }
+        penumbra::Device device;
+        std::unique_ptr<penumbra::Technique> technique;
+        penumbra::HostFramebuffer framebuffer{device};
+        penumbra::VisibilityBuffer visibility{device, 1, 1};
+        std::vector<std::unique_ptr<penumbra::Mesh>> meshes;
+        std::vector<penumbra::Caster> casters;
+    };
 
     //! [view]
     static penumbra::View viewOf(vtkRenderer* renderer, vtkOpenGLRenderWindow* window) {
@@ -161,6 +133,7 @@ class ShadowPass final : public vtkCommand {
         view.viewFromWorld = toPenumbra(camera->GetModelViewTransformMatrix());
         view.clipFromView =
             toPenumbra(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1));
+        // Multisampled, where the window is.
         view.depthTexture = window->GetRenderFramebuffer()->GetDepthAttachmentAsTextureObject()->GetHandle();
         // As OpenGL has it since 1992: -1..1, near before far.
         view.depth = {.range = penumbra::DepthConvention::Range::minusOneToOne, .reversed = false};
@@ -168,38 +141,9 @@ class ShadowPass final : public vtkCommand {
     }
     //! [view]
 
-    /// Scales the picture by the visibility, with VTK's state as VTK believes it to be.
-    void multiply(vtkOpenGLRenderWindow* window) const {
-        vtkOpenGLState* const state = window->GetState();
-        vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND), depth(state, GL_DEPTH_TEST);
-        vtkOpenGLState::ScopedglBlendFuncSeparate function(state);
-        state->vtkglEnable(GL_BLEND);
-        state->vtkglDisable(GL_DEPTH_TEST);
-        state->vtkglBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
-        GLint program = 0, vertexArray = 0, texture = 0, active = 0;
-        glGetIntegerv(GL_CURRENT_PROGRAM, &program);
-        glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &vertexArray);
-        glGetIntegerv(GL_ACTIVE_TEXTURE, &active);
-        glActiveTexture(GL_TEXTURE0);
-        glGetIntegerv(GL_TEXTURE_BINDING_2D, &texture);
-        glUseProgram(program_);
-        glBindVertexArray(noVertices_);
-        glBindTexture(GL_TEXTURE_2D, visibility_->texture());
-        glDrawArrays(GL_TRIANGLES, 0, 3);
-        glBindTexture(GL_TEXTURE_2D, GLuint(texture));
-        glActiveTexture(GLenum(active));
-        glBindVertexArray(GLuint(vertexArray));
-        glUseProgram(GLuint(program));
-    }
-
     std::string name_;
     Lamp lamp_;
-    std::optional<penumbra::Device> device_;
-    std::unique_ptr<penumbra::Technique> technique_;
-    std::optional<penumbra::VisibilityBuffer> visibility_;
-    std::vector<std::unique_ptr<penumbra::Mesh>> meshes_;
-    std::vector<penumbra::Caster> casters_;
-    GLuint program_ = 0, noVertices_ = 0;
+    std::unique_ptr<Drawing> drawing_;
 };
 
 template <typename Source>
@@ -253,11 +197,13 @@ void buildScene(vtkRenderer* renderer) {
 int main(int argc, char** argv) try {
     std::string technique = "exact", screenshot;
     bool shadows = true;
+    int samples = vtkOpenGLRenderWindow::GetGlobalMaximumNumberOfMultiSamples();  // VTK's default
     for (int i = 1; i < argc; ++i) {
         const std::string flag = argv[i];
         if (flag == "--no-shadows") shadows = false;
         if (flag == "--technique" && i + 1 < argc) technique = argv[++i];
         if (flag == "--screenshot" && i + 1 < argc) screenshot = argv[++i];
+        if (flag == "--samples" && i + 1 < argc) samples = std::stoi(argv[++i]);
     }
 
     vtkNew<vtkRenderer> renderer;
@@ -276,7 +222,7 @@ int main(int argc, char** argv) try {
     renderer->ResetCameraClippingRange();
 
     vtkNew<vtkRenderWindow> window;
-    window->SetMultiSamples(0);
+    window->SetMultiSamples(samples);
     window->SetSize(640, 400);
     window->SetOffScreenRendering(screenshot.empty() ? 0 : 1);
     window->AddRenderer(renderer);
