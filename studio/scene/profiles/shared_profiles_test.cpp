@@ -34,7 +34,7 @@ TEST(SharedProfiles, AreReadRight) {
             << entry.path();
         const auto& opening = right["opening"];
         const bool circle = opening["shape"] == "circle";
-        EXPECT_EQ(profile.opening.name(), opening["shape"]) << entry.path();
+        EXPECT_EQ(profile.opening.name(), opening["shape"].get<std::string>()) << entry.path();
         const auto along = [&](const char* axis, const char* plane) {
             return double(circle                   ? opening["diameter_m"]
                           : opening.contains(axis) ? opening[axis]
