@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points without a picture: what techniques answer there, and what they say where they cannot.
+#include <algorithm>
 #include <cmath>
 
 #include "studio/frame/conversions.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/geometry/silhouette_extractor.h"
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lux against what is known: closed forms, sums, symmetries, and integrals by hand.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

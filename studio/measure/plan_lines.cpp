@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/measure/plan_lines.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,7 +14,8 @@ struct XXH3_state_s;
 
 namespace penumbra::studio {
 
-/// 128 bits that name some content (XXH3). Not cryptographic: it tells pictures apart, it withstands no attack.
+/// 128 bits that name some content (XXH3). Not cryptographic: it tells pictures apart, it withstands no
+/// attack.
 struct ContentHash {
     std::uint64_t high = 0, low = 0;
     bool operator==(const ContentHash&) const = default;

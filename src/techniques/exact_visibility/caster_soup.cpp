@@ -142,8 +142,10 @@ void CasterSoup::send() {
     nodeCount_ = node;
     triangleCount_ = triangle;
     maskedCount_ = masked;
-    const bool lost =
-        nodes_.reserve(2 * node) | triangles_.reserve(3 * triangle) | masked_.reserve(2 * masked);
+    // All three, whichever has lost what it held.
+    const bool nodesLost = nodes_.reserve(2 * node), trianglesLost = triangles_.reserve(3 * triangle),
+               maskedLost = masked_.reserve(2 * masked);
+    const bool lost = nodesLost || trianglesLost || maskedLost;
     if (!changed && !lost) return;
     for (Entry& entry : entries_) {
         if (lost || !entry.isSent) send(entry);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Known answers: materials, lights and cameras.
+#include <algorithm>
 #include <cmath>
 
 #include "studio/errors.h"
