@@ -7,6 +7,7 @@
 
 #include "studio/frame/conversions.h"
 #include "studio/frame/frame_renderer.h"
+#include "studio/frame/surfaces.h"
 
 namespace penumbra::studio {
 namespace {
@@ -17,11 +18,6 @@ std::span<const glm::vec3> asGlm(std::span<const Vec3> values) {
 
 std::span<const glm::vec2> asGlm(std::span<const Vec2> values) {
     return {reinterpret_cast<const glm::vec2*>(values.data()), values.size()};
-}
-
-/// The depth as clip-space z.
-double clipZ(const DepthConvention& convention, float depth) {
-    return convention.range == DepthConvention::Range::zeroToOne ? depth : 2.0 * depth - 1.0;
 }
 
 GLint textureParameter(GLuint texture, GLenum name) {
@@ -65,10 +61,7 @@ ReceiverImage readPoints(const View& view) {
 ReceiverImage readReceivers(const View& view) {
     if (view.isOfPoints) return readPoints(view);
     const int width = view.width_px, height = view.height_px;
-    Image depth(width, height, 1);
-    const auto bytes = GLsizei(depth.values.size() * sizeof(float));
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTextureImage(view.depthTexture, 0, GL_DEPTH_COMPONENT, GL_FLOAT, bytes, depth.values.data());
+    const Image depth = readDepth(view);
     const Image normals = readTexture(view.normalTexture, width, height, 3);
     const Image mask = view.receiverTexture != 0 ? readTexture(view.receiverTexture, width, height, 1)
                                                  : Image(width, height, 1, 1.0f);
@@ -76,11 +69,11 @@ ReceiverImage readReceivers(const View& view) {
     const glm::dmat4 worldFromView = glm::inverse(glm::dmat4(fromPenumbra(view.viewFromWorld)));
     const glm::dmat4 worldFromClip =
         worldFromView * glm::inverse(glm::dmat4(fromPenumbra(view.clipFromView)));
-    const float background = view.depth.reversed ? 0.0f : 1.0f;
+    const float background = backgroundOf(view.depth);
     ReceiverImage receivers{.width_px = width, .height_px = height, .eyeWorld = glm::vec3(worldFromView[3])};
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            const float stored = depth.at(x, height - 1 - y);  // read back bottom row first
+            const float stored = depth.at(x, y);
             const glm::dvec4 clip((x + 0.5) / width * 2 - 1, 1 - (y + 0.5) / height * 2,
                                   clipZ(view.depth, stored), 1);
             const glm::dvec4 posWorld = worldFromClip * clip;
