@@ -21,7 +21,7 @@ _penumbra_value_of() {
 _penumbra_parameters() {
     local technique
     technique=$(_penumbra_value_of -t --technique)
-    technique=${technique:-exact}
+    technique=${technique:-auto}
     "$1" list parameters "${technique%%[,:]*}" 2>/dev/null | sed -n 's/^  \([a-z][a-z0-9_]*=\).*/\1/p'
 }
 
