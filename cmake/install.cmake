@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # What `cmake --install` lays down, and how others find it. Components: library (what programs need to run),
-# development (headers, static library, CMake package, pkg-config), tools (the command).
+# development (headers, static library, CMake package, pkg-config), tools (the command), python (the module).
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
@@ -39,7 +39,8 @@ set(soversion ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(package_of_library libpenumbra${soversion})
 set(package_of_development libpenumbra-dev)
 set(package_of_tools penumbra)
-foreach(component library development tools)
+set(package_of_python python3-penumbra)
+foreach(component library development tools python)
     install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package_of_${component}} RENAME copyright
         COMPONENT ${component})
 endforeach()
@@ -53,6 +54,9 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL library development)
 if(PENUMBRA_STUDIO)
     list(APPEND CPACK_COMPONENTS_ALL tools)
+endif()
+if(PENUMBRA_PYTHON)
+    list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -70,4 +74,13 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME ${package_of_tools})
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri")
 set(CPACK_COMPONENT_TOOLS_DESCRIPTION "${PROJECT_DESCRIPTION}: the command")
+if(PENUMBRA_PYTHON)
+    # A module is for the Python that it was built with.
+    math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME ${package_of_python})
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+    set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+        "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy, libegl1, libgl1-mesa-dri")
+    set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION}: the Python module")
+endif()
 include(CPack)

@@ -223,14 +223,15 @@ TEST(Layout, DocumentsNameTestsThatExist) {
     EXPECT_GT(mentioned, 100);
 }
 
-/// The lines between the marks `//! [name]` of a file, without the indentation that all of them have.
+/// The lines between the marks `//! [name]` (of Python `#! [name]`) of a file, without the indentation that
+/// all of them have.
 std::string markedCode(const fs::path& file, const std::string& name) {
     std::ifstream text(file);
     std::vector<std::string> lines;
     std::size_t indentation = std::string::npos;
     bool within = false;
     for (std::string line; std::getline(text, line);) {
-        if (line.find("//! [" + name + "]") != std::string::npos) {
+        if (line.ends_with("//! [" + name + "]") || line.ends_with("#! [" + name + "]")) {
             within = !within;
         } else if (within) {
             if (!line.empty()) indentation = std::min(indentation, line.find_first_not_of(' '));
@@ -244,7 +245,7 @@ std::string markedCode(const fs::path& file, const std::string& name) {
 
 TEST(Manual, CodeIsThatOfTheExamples) {
     // "<!-- examples/FILE: NAME -->", and the fenced code after it.
-    static const std::regex block("<!-- (examples/[^:]+): (\\w+) -->\n```cpp\n([^`]*)```");
+    static const std::regex block("<!-- (examples/[^:]+): (\\w+) -->\n```(?:cpp|python)\n([^`]*)```");
     int blocks = 0;
     for (const auto& entry : fs::directory_iterator(root / "docs/manual")) {
         std::ifstream file(entry.path());
@@ -258,7 +259,7 @@ TEST(Manual, CodeIsThatOfTheExamples) {
                 << (*match)[1];
         }
     }
-    EXPECT_EQ(blocks, 8);
+    EXPECT_EQ(blocks, 12);
 }
 
 }  // namespace

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+# What the Python module needs; where something is missing the module is left out, and PENUMBRA_PYTHON is off.
+set(whyNoPython "PENUMBRA_PYTHON is off")
+if(PENUMBRA_PYTHON)
+    set(whyNoPython "")
+    # The system's Python, whose packages these are, even where another comes first in the PATH.
+    if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+        set(Python_EXECUTABLE /usr/bin/python3)
+    endif()
+    find_package(Python 3.11 QUIET COMPONENTS Interpreter Development.Module NumPy)
+    if(Python_FOUND)
+        find_package(pybind11 2.10 QUIET)
+    endif()
+    if(NOT pybind11_FOUND)
+        set(whyNoPython "it needs python3-dev, python3-numpy and pybind11-dev")
+    elseif(PENUMBRA_SANITIZE)
+        set(whyNoPython "Python itself is without sanitizers")
+    endif()
+    if(whyNoPython)
+        message(STATUS "No Python module: ${whyNoPython}")
+        set(PENUMBRA_PYTHON OFF)
+    endif()
+endif()
