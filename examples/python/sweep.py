@@ -12,7 +12,7 @@ import penumbra
 SCENES = ["two-boxes", "overlapping-blockers", "columns"]
 SWEPT = {  # technique: its parameter, and the values that it is given
     "exact": ("samples", [16, 64, 256]),
-    "uniform": ("samples", [4, 16, 64]),
+    "uniform": ("samples", [4, 9, 17]),
     "pcss": ("map_size", [256, 512, 1024, 2048]),
 }
 
@@ -46,8 +46,10 @@ for name in SCENES:
                             progress=lambda share: print(f"\r{name}: truth {share:4.0%}", end="", flush=True))
     print()
     for technique, (parameter, values) in SWEPT.items():
-        curves[name, technique] = [measure(scene, truth, technique, {parameter: value}) for value in values]
-        for value, (cost_ms, error) in zip(values, curves[name, technique]):
+        curves[name, technique] = []
+        for value in values:
+            cost_ms, error = measure(scene, truth, technique, {parameter: value})
+            curves[name, technique].append((cost_ms, error))
             print(f"  {technique:8} {parameter} {value:5}: {cost_ms:8.2f} ms, error {error:.4f}")
 
 # %% Draw
