@@ -13,13 +13,7 @@ HardVolumes::HardVolumes(Device& device)
 
 void HardVolumes::describe(ParameterVisitor& visitor) {
     describeCounting(visitor, counting_);
-    static constexpr std::array<std::string_view, 2> openMeshes = {"signed", "capped"};
-    visitor.choice(
-        {.name = "open_meshes",
-         .help =
-             "signed: an edge counts for the faces that end there, so that triangles alone block; capped: "
-             "as published, holes are closed first, and block as well"},
-        openMeshes_, openMeshes);
+    describeOpenMeshes(visitor, openMeshes_);
 }
 
 void HardVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {

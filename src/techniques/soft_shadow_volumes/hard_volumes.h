@@ -20,7 +20,6 @@ class HardVolumes final : public Technique {
     Statistics statistics() const override;
 
   private:
-    enum class OpenMeshes { signedEdges, capped };
     int counting_ = 0;
     int openMeshes_ = int(OpenMeshes::signedEdges);
 

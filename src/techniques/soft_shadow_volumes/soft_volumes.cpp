@@ -17,7 +17,8 @@ constexpr int framesToSettle = 5;  // one more than PassTimers keeps in flight
 }  // namespace
 
 SoftVolumes::SoftVolumes(Device& device)
-    : isSoftware_(internalsOf(device).isSoftware),
+    : device_(internalsOf(device)),
+      isSoftware_(device_.isSoftware),
       counter_(device),
       layers_(device),
       wedges_(device),
@@ -61,6 +62,13 @@ void SoftVolumes::describe(ParameterVisitor& visitor) {
          .help = "of wedges: stencil marks the pixels inside each half wedge first, as published; far slower "
                  "than to find out while drawing"},
         marking_, markings);
+    static constexpr std::array<std::string_view, 2> formats = {"float", "split"};
+    visitor.choice(
+        {.name = "layer_format",
+         .help = "of the V-buffer that wedges are added up in: split: as published, 12 bits in four "
+                 "bytes, which 31 wedges a pixel fill"},
+        layerFormat_, formats);
+    describeOpenMeshes(visitor, openMeshes_);
     visitor.boolean({.name = "wireframe", .help = "outlines wedges for inspection"}, wireframe_);
     visitor.integer(
         {.name = "edge_memory",
@@ -132,6 +140,7 @@ void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const bool isDrawn = wedges || !isSoft;
     VolumeFrame frame(inputs, pixelsPerTexel,
                       isDrawn ? VolumeFrame::Count::drawn : VolumeFrame::Count::asked);
+    if (openMeshes_ == int(OpenMeshes::capped)) frame.capHoles(device_);
     if (wedges) {
         WedgeRaster::countAsBlockers(frame);
     } else {
@@ -160,7 +169,11 @@ void SoftVolumes::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const gl::TextureRef target = pixelsPerTexel > 1 ? vBuffer_.ref() : imageOf(out);
     if (wedges) {
         wedges_.render(frame, binding_, inputs.light, counter_,
-                       {WedgeRaster::Marking(marking_), Counting(counting_), wireframe_}, target, timers_);
+                       {.marking = WedgeRaster::Marking(marking_),
+                        .layerFormat = WedgeRaster::LayerFormat(layerFormat_),
+                        .counting = Counting(counting_),
+                        .wireframe = wireframe_},
+                       target, timers_);
     } else {
         layers_.render(frame, binding_, inputs.light, counter_, target, timers_);
     }

@@ -32,6 +32,8 @@ class SoftVolumes final : public Technique {
     int counting_ = 0;
     TileLayers::Effort effort_;
     int marking_ = int(WedgeRaster::Marking::none);
+    int layerFormat_ = int(WedgeRaster::LayerFormat::floats);
+    int openMeshes_ = int(OpenMeshes::signedEdges);
     bool wireframe_ = false;
     int vBufferSize_ = 0;  // full, half, quarter
     enum class Upsampling { plane, point };
@@ -41,6 +43,7 @@ class SoftVolumes final : public Technique {
     int budgetedSize_ = 0;       // the size that the budget has led to
     int framesAtSize_ = 0;       // since then
 
+    Device::Internals& device_;
     const bool isSoftware_;
     VolumeCounter counter_;
     TileLayers layers_;

@@ -98,6 +98,38 @@ TEST_F(SoftVolumesTest, MarkingHalfWedgesLeavesOutNothing) {
     }
 }
 
+TEST_F(SoftVolumesTest, BytesOfTwelveBitsAddUpToTheFloats) {
+    // Each of a few wedges a pixel is rounded to a 4,095th.
+    const Scene scene = makeBuiltin("two-boxes");
+    const Settings split = {{"method", "wedges"}, {"layer_format", "split"}};
+    const LightResult floats = render("soft-volumes", scene, size, wedges);
+    const LightResult bytes = render("soft-volumes", scene, size, split);
+    EXPECT_LE(shareOfDifferentPixels(floats, bytes, 0.003f), 0);
+    EXPECT_GT(shareOfDifferentPixels(floats, bytes, 1e-6f), 0.01) << "are they floats, too?";
+}
+
+TEST_F(SoftVolumesTest, CapsCloseOpenMeshesForLayersAndWedges) {
+    // Boxes without one of their sides are the boxes again, but for what is seen through the missing side:
+    // one that faces the camera is a fifteenth of what the light reaches.
+    const auto boxWithout = [](std::ptrdiff_t first) {
+        Scene scene = makeBuiltin("two-boxes");
+        for (Mesh& mesh : scene.meshes) {
+            const auto begin = mesh.indices.begin() + first;
+            if (mesh.indices.size() == 36) mesh.indices.erase(begin, begin + 6);
+        }
+        return scene;
+    };
+    for (const char* method : {"layers", "wedges"}) {
+        const LightResult whole =
+            render("soft-volumes", makeBuiltin("two-boxes"), size, {{"method", method}});
+        for (std::ptrdiff_t side = 0; side < 36; side += 6) {
+            const LightResult capped = render("soft-volumes", boxWithout(side), size,
+                                              {{"method", method}, {"open_meshes", "capped"}});
+            EXPECT_LE(shareOfDifferentPixels(whole, capped, 0.02f), 0.08) << method << " " << side;
+        }
+    }
+}
+
 TEST_F(SoftVolumesTest, WindingAndDuplicatesAreNothingToIt) {
     const Scene plain = makeBuiltin("two-boxes");
     const Scene flipped = withIndices(plain, [](std::vector<std::uint32_t>& indices) {

@@ -2,9 +2,11 @@
 #include "src/techniques/soft_shadow_volumes/volume_frame.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <string_view>
 
 #include "src/device/glm_types.h"
 #include "src/geometry/capping.h"
@@ -90,6 +92,16 @@ double leastDistance(const Mesh& mesh, const glm::dmat4& lightFromMesh, const gl
 }
 
 }  // namespace
+
+void describeOpenMeshes(ParameterVisitor& visitor, int& openMeshes) {
+    static constexpr std::array<std::string_view, 2> choices = {"signed", "capped"};
+    visitor.choice(
+        {.name = "open_meshes",
+         .help =
+             "signed: an edge counts for the faces that end there, so that triangles alone block; capped: "
+             "as published, holes are closed first, and block as well"},
+        openMeshes, choices);
+}
 
 void AlphaMaskWarning::check(std::span<const Caster> casters) {
     if (said_) return;

@@ -20,6 +20,15 @@ struct MaskedSource {
     AlphaMask mask;
 };
 
+/// What becomes of a mesh's borders.
+enum class OpenMeshes {
+    signedEdges,  ///< an edge counts for the faces that end there: triangles alone block
+    capped,       ///< as published (4.3): holes are closed first, and block as well
+};
+
+/// The parameter that chooses it: `openMeshes` is an OpenMeshes.
+void describeOpenMeshes(ParameterVisitor& visitor, int& openMeshes);
+
 /// What both techniques of the room prepare on the CPU for a frame.
 struct VolumeFrame {
     glm::dmat4 lightFromWorld{1};

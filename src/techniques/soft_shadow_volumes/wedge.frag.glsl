@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
 // What one edge covers of the light, added to one of the V-buffer's two layers (thesis, sections 4.2.3 and 4.2.7).
+//
+// SPLIT: defined where layers are bytes, as published.
 #include "src/techniques/common/view.glsl"
 #include "src/techniques/soft_shadow_volumes/volumes_io.h"
 #include "src/techniques/soft_shadow_volumes/lifted_receiver.glsl"
@@ -12,13 +14,30 @@
 layout(location = 0) flat in vec3 aLight;
 layout(location = 1) flat in vec3 bLight;
 layout(location = 2) flat in float weight;
-layout(location = 0) out vec2 layers;         // x: additive, y: subtractive
-layout(location = 1) out float evaluations;
-layout(location = 2) out vec4 colored;        // of a textured light: additive less subtractive, for each channel
+layout(location = 0) out float evaluations;
+#ifdef SPLIT
+#include "src/techniques/soft_shadow_volumes/split_values.glsl"
+layout(location = 1) out vec4 additive;
+layout(location = 2) out vec4 subtractive;
+
+void put(vec3 change) {
+    float mean = dot(change, vec3(1.0 / 3.0));
+    additive = splitValue(mean);
+    subtractive = splitValue(-mean);
+}
+#else
+layout(location = 1) out vec2 layers;  // x: additive, y: subtractive
+layout(location = 2) out vec4 colored;  // of a textured light: additive less subtractive, for each channel
+
+void put(vec3 change) {
+    float mean = dot(change, vec3(1.0 / 3.0));
+    layers = vec2(max(mean, 0.0), max(-mean, 0.0));
+    colored = vec4(change, 0.0);
+}
+#endif
 
 void main() {
-    layers = vec2(0.0);
-    colored = vec4(0.0);
+    put(vec3(0.0));
     evaluations = 1.0;
     Receiver receiver;
     LightFrame frame;
@@ -31,7 +50,5 @@ void main() {
     // A face that shows the light its front shows the receiver, on the other side of the edge, its back.
     float blockers = (edge.hasLeft ? weight : -weight) * frame.handedness * 0.5;
     vec3 share = volume.light.isTextured ? radianceBeyond(edge, from, to) : vec3(shareBeyond(from, to));
-    colored = vec4(blockers * share, 0.0);
-    float change = blockers * dot(share, vec3(1.0 / 3.0));
-    layers = vec2(max(change, 0.0), max(-change, 0.0));
+    put(blockers * share);
 }

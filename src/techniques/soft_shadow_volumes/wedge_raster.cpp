@@ -3,6 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "src/geometry/edge_mesh.h"
 #include "src/gl/pass.h"
@@ -10,18 +13,29 @@
 namespace penumbra::soft_shadow_volumes {
 namespace {
 
+std::string shader(std::string_view name) {
+    return "src/techniques/soft_shadow_volumes/" + std::string(name) + ".glsl";
+}
+
 constexpr const char* wedgeVertices = "src/techniques/soft_shadow_volumes/wedge.vert.glsl";
 constexpr int verticesPerWedge = 24;
 
 }  // namespace
 
 WedgeRaster::WedgeRaster(Device& device)
-    : wedges_(internalsOf(device).shaders,
-              {wedgeVertices, "src/techniques/soft_shadow_volumes/wedge.frag.glsl"}),
-      marks_(internalsOf(device).shaders,
-             {wedgeVertices, "src/techniques/soft_shadow_volumes/wedge_mark.frag.glsl"}),
-      resolve_(internalsOf(device).shaders, {"src/techniques/soft_shadow_volumes/wedge_resolve.comp.glsl"}),
-      points_(device) {}
+    : device_(internalsOf(device)),
+      marks_(device_.shaders, {wedgeVertices, shader("wedge_mark.frag")}),
+      points_(device) {
+    makeShaders();
+}
+
+void WedgeRaster::makeShaders() {
+    std::vector<std::string> defines;
+    if (layerFormat_ == LayerFormat::splitBytes) defines.emplace_back("SPLIT");
+    wedges_ = gl::Program(device_.shaders, {wedgeVertices, shader("wedge.frag")}, defines);
+    resolve_ = gl::Program(device_.shaders, {shader("wedge_resolve.comp")}, defines);
+    layers_ = {};  // its framebuffer is another one
+}
 
 void WedgeRaster::countAsBlockers(VolumeFrame& frame) {
     for (std::size_t i = 0; i < frame.sources.size(); ++i) {
@@ -35,18 +49,24 @@ void WedgeRaster::allocate(glm::ivec2 size_px, bool isTextured, Options options)
     const auto fit = [&](gl::Texture& texture, gl::Format format, std::string_view label) {
         return texture.fit({.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = label});
     };
-    if (isTextured != (colors_.name() != 0)) layers_ = {};
+    const bool isSplit = layerFormat_ == LayerFormat::splitBytes, isColored = isTextured && !isSplit;
+    if (isColored != (colors_.name() != 0)) layers_ = {};
     if (fit(layers_, gl::Format::rg32f, "soft-volumes/V-buffer layers")) {
         fit(evaluations_, gl::Format::r32f, "soft-volumes/wedges a pixel");
         fit(depthAndMarks_, gl::Format::depth32fStencil8, "soft-volumes/marks");
-        colors_ = {};
-        if (isTextured) {
+        for (gl::Texture* texture : {&colors_, &additiveBytes_, &subtractiveBytes_}) *texture = {};
+        if (isSplit) {
+            fit(additiveBytes_, gl::Format::rgba8, "soft-volumes/additive bytes");
+            fit(subtractiveBytes_, gl::Format::rgba8, "soft-volumes/subtractive bytes");
+            framebuffer_ = gl::Framebuffer({&evaluations_, &additiveBytes_, &subtractiveBytes_},
+                                           &depthAndMarks_, "soft-volumes/V-buffer bytes");
+        } else if (isColored) {
             fit(colors_, gl::Format::rgba32f, "soft-volumes/V-buffer colours");
-            framebuffer_ = gl::Framebuffer({&layers_, &evaluations_, &colors_}, &depthAndMarks_,
+            framebuffer_ = gl::Framebuffer({&evaluations_, &layers_, &colors_}, &depthAndMarks_,
                                            "soft-volumes/V-buffer layers");
         } else {
             framebuffer_ =
-                gl::Framebuffer({&layers_, &evaluations_}, &depthAndMarks_, "soft-volumes/V-buffer layers");
+                gl::Framebuffer({&evaluations_, &layers_}, &depthAndMarks_, "soft-volumes/V-buffer layers");
         }
     }
     if (!options.wireframe) {
@@ -143,18 +163,38 @@ void WedgeRaster::drawWireframe(const FrameBinding& binding, const VolumeCounter
         .drawIndirect(gl::Primitive::triangles, counter.eye(), offsetof(EyeState, wedges));
 }
 
+void WedgeRaster::clearLayers() {
+    for (gl::Texture* texture : {&layers_, &evaluations_, &colors_, &additiveBytes_, &subtractiveBytes_})
+        if (texture->name() != 0) texture->clear();
+}
+
+void WedgeRaster::resolve(const VolumeFrame& frame, const FrameBinding& binding, const VolumeCounter& counter,
+                          const gl::TextureRef& target) {
+    gl::Pass pass(resolve_);
+    pass.bind(binding)
+        .bind(counter)
+        .bind("liftedDepths", counter.depth())
+        .bind("wedgeLayers", layers_)
+        .bind("visibility", target);
+    if (layerFormat_ == LayerFormat::splitBytes) {
+        pass.bind("additiveBytes", additiveBytes_).bind("subtractiveBytes", subtractiveBytes_);
+    } else {
+        pass.bind("wedgeColors", colors_.name() != 0 ? colors_ : evaluations_);
+    }
+    pass.dispatchPixels(frame.constants.buffer_px.x, frame.constants.buffer_px.y);
+}
+
 void WedgeRaster::render(const VolumeFrame& frame, const FrameBinding& binding, const AreaLight& light,
                          const VolumeCounter& counter, Options options, const gl::TextureRef& target,
                          gl::PassTimers& timers) {
     const glm::ivec2 size_px = frame.constants.buffer_px;
     const bool isTextured = light.radianceTexture != 0;
+    if (std::exchange(layerFormat_, options.layerFormat) != options.layerFormat) makeShaders();
     allocate(size_px, isTextured, options);
     if (isTextured) points_.place(light, binding, LightPoints::most);
     {
         const auto pass = timers.pass("soft-volumes/wedges");
-        layers_.clear();
-        evaluations_.clear();
-        if (isTextured) colors_.clear();
+        clearLayers();
         if (options.marking == Marking::stencil) {
             drawMarked(frame, binding, counter, options.counting);
         } else {
@@ -166,19 +206,16 @@ void WedgeRaster::render(const VolumeFrame& frame, const FrameBinding& binding, 
         drawWireframe(binding, counter, size_px);
     }
     const auto pass = timers.pass("soft-volumes/visibility");
-    gl::Pass(resolve_)
-        .bind(binding)
-        .bind(counter)
-        .bind("liftedDepths", counter.depth())
-        .bind("wedgeLayers", layers_)
-        .bind("wedgeColors", isTextured ? colors_ : layers_)
-        .bind("visibility", target)
-        .dispatchPixels(size_px.x, size_px.y);
+    resolve(frame, binding, counter, target);
 }
 
 void WedgeRaster::inspect(InspectionVisitor& visitor) const {
     if (layers_.name() == 0) return;
-    visitor.texture({.name = "additive and subtractive layers", .texture = layers_.name()});
+    visitor.texture({.name = "additive and subtractive layers", .texture = layers_.name(), .white = 2});
+    if (additiveBytes_.name() != 0) {
+        visitor.texture({.name = "additive layer's bytes", .texture = additiveBytes_.name()});
+        visitor.texture({.name = "subtractive layer's bytes", .texture = subtractiveBytes_.name()});
+    }
     if (colors_.name() != 0) visitor.texture({.name = "layers of each channel", .texture = colors_.name()});
     visitor.texture({.name = "wedges a pixel", .texture = evaluations_.name(), .white = 16});
     if (wireframe_.name() != 0)

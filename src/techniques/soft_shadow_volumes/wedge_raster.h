@@ -18,8 +18,14 @@ class WedgeRaster {
         none,     ///< wedges are drawn at once, and a pixel outside of one finds that it adds nothing
         stencil,  ///< pixels inside each half wedge are marked first (4.2.7), so that only they pay
     };
+    /// What the V-buffer's layers are made of.
+    enum class LayerFormat {
+        floats,      ///< what the thesis expected of later hardware
+        splitBytes,  ///< as published: 12 bits in four bytes (4.2.3), a textured light's in grey
+    };
     struct Options {
         Marking marking = Marking::none;
+        LayerFormat layerFormat = LayerFormat::floats;
         /// How pixels are marked. Automatic: by Z-pass, but for half wedges that may hold the eye. By Z-pass
         /// alone these come out wrong.
         Counting counting = Counting::automatic;
@@ -41,6 +47,11 @@ class WedgeRaster {
 
   private:
     void allocate(glm::ivec2 size_px, bool isTextured, Options options);
+    void makeShaders();
+    /// Of the pixels' values, not of what marks them.
+    void clearLayers();
+    void resolve(const VolumeFrame& frame, const FrameBinding& binding, const VolumeCounter& counter,
+                 const gl::TextureRef& target);
     /// What wedges are made of.
     static void bindEdges(gl::Pass& pass, const FrameBinding& binding, const VolumeCounter& counter);
     void bindEvaluation(gl::Pass& pass, const FrameBinding& binding, const VolumeCounter& counter) const;
@@ -49,9 +60,12 @@ class WedgeRaster {
                     Counting counting);
     void drawWireframe(const FrameBinding& binding, const VolumeCounter& counter, glm::ivec2 size_px) const;
 
+    Device::Internals& device_;
     gl::Program wedges_, marks_, resolve_;
     LightPoints points_;
     gl::Texture layers_, evaluations_, colors_, depthAndMarks_, wireframe_;
+    gl::Texture additiveBytes_, subtractiveBytes_;
+    LayerFormat layerFormat_ = LayerFormat::floats;
     gl::Framebuffer framebuffer_, wireframeFramebuffer_;
 };
 
