@@ -55,10 +55,10 @@ class Properties : public TechniqueTest, public testing::WithParamInterface<cons
     /// Maps have texels, whose places follow from what is in the scene: a few pixels of their shadows' edges
     /// move.
     static double allowedShare() { return std::string(GetParam()) == "uniform" ? 0.02 : 0; }
-    static constexpr float rounding = 1e-4f;
 
-    /// See the room's README: what overlaps or coincides is wrong in up to one of a hundred pixels.
-    static bool isKnownFault() { return std::string(GetParam()) == "soft-volumes"; }
+    /// Soft volumes know from the exact areas of edges what is hidden between their 64 points; where edges of
+    /// several blockers meet, to half of what a point stands for.
+    static float rounding() { return std::string(GetParam()) == "soft-volumes" ? 0.5f / 64 : 1e-4f; }
 
     static double share(const Image& a, const std::function<bool(std::size_t)>& isWrong) {
         std::size_t wrong = 0;
@@ -68,25 +68,23 @@ class Properties : public TechniqueTest, public testing::WithParamInterface<cons
 };
 
 TEST_P(Properties, ABlockerMoreNeverLightens) {
-    if (isKnownFault()) GTEST_SKIP() << "a known fault of soft-volumes";
     const Image none = visibility(scene({}, panel())), one = visibility(scene({left}, panel())),
                 both = visibility(scene({left, right}, panel()));
     EXPECT_EQ(share(none, [&](std::size_t i) { return none.values[i] != 1; }), 0);
     EXPECT_GT(share(one, [&](std::size_t i) { return one.values[i] < 0.5f; }), 0.02) << "nothing is blocked";
     EXPECT_GT(share(one, [&](std::size_t i) { return both.values[i] < one.values[i] - 0.2f; }), 0.02)
         << "the second blocker blocks nothing more";
-    EXPECT_LE(share(one, [&](std::size_t i) { return !(both.values[i] <= one.values[i] + rounding); }),
+    EXPECT_LE(share(one, [&](std::size_t i) { return !(both.values[i] <= one.values[i] + rounding()); }),
               allowedShare());
 }
 
 TEST_P(Properties, TwoBlockersAreAUnion) {
-    if (isKnownFault()) GTEST_SKIP() << "a known fault of soft-volumes";
     const Image one = visibility(scene({left}, panel())), other = visibility(scene({right}, panel())),
                 both = visibility(scene({left, right}, panel()));
     const auto isOutside = [&](std::size_t i) {
         const float a = one.values[i], b = other.values[i], low = std::max(0.0f, a + b - 1),
                     high = std::min(a, b);
-        return !(both.values[i] >= low - rounding && both.values[i] <= high + rounding);
+        return !(both.values[i] >= low - rounding() && both.values[i] <= high + rounding());
     };
     EXPECT_LE(share(one, isOutside), allowedShare());
     // A product would lie between the bounds, too, but not on them where one hides behind the other.
@@ -99,9 +97,12 @@ TEST_P(Properties, TwoBlockersAreAUnion) {
 }
 
 TEST_P(Properties, TheSameBlockerTwiceChangesNothing) {
-    if (isKnownFault()) GTEST_SKIP() << "a known fault of soft-volumes";
     const Image once = visibility(scene({left}, panel())), twice = visibility(scene({left, left}, panel()));
-    EXPECT_EQ(share(once, [&](std::size_t i) { return once.values[i] != twice.values[i]; }), 0);
+    const auto isOther = [&](std::size_t i) {
+        const float difference = std::abs(once.values[i] - twice.values[i]);
+        return std::string(GetParam()) == "soft-volumes" ? difference > rounding() : difference != 0;
+    };
+    EXPECT_EQ(share(once, isOther), 0);
 }
 
 TEST_P(Properties, UmbraAndLitGroundOfALargeLightAreThoseOfASmallOneInIt) {

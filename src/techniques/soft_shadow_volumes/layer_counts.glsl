@@ -5,9 +5,27 @@
 
 const float fixedOne = 1048576.0;  // integers add up to the same in any order
 
-// Changes in the number of layers from the light's centre to its other points. Not in a struct that is handed around,
-// which some compilers copy.
+// For each of the light's points, in one integer (PointCount in layer_visibility.glsl): by how much the number of layers
+// differs from that before the light's centre, and what edges near the point do to the area that it stands for. Not in a
+// struct that is handed around, which some compilers copy.
 int changes[SAMPLES];
+
+const int countBits = 12, offsetBits = 10;  // each signed, so that what overflows harms no count
+const float offsetOne = 16.0;
+
+// What an edge adds to a point's count that hides, or shows, `share` more of its area than of the point itself. Where several
+// edges lie on each other, the first alone says how much of the area that is.
+int offsetOf(float share, int change, bool isFirst) {
+    int ofArea = int(round(share * offsetOne)), behind = isFirst ? (change < 0 ? -ofArea : ofArea) : 0;
+    return (behind << (countBits + offsetBits)) + ((ofArea * change) << countBits);
+}
+
+// One over how wide what a point stands for is, in unit space; 0 where they do not all stand for the same area.
+float cellsAcross(LightFrame frame) {
+    if (isSliver || frame.tangent > wideLight) return 0.0;
+    return sqrt(float(SAMPLES) / (isSquareLight() ? 4.0 : 0.5 * lightTau));
+}
+
 int leastChange = 2;      // of any edge: how many layers the thinnest blocker has
 ivec3 meanChangeFixed = ivec3(0);  // exact mean over the light, of each channel's radiance, times fixedOne
 int edgesCounted = 0;
@@ -20,8 +38,8 @@ const float clearOfCenter = 1e-2;      // of the light's half side: nearer to it
 // The first point whose direction is not before this one; SAMPLES becomes 0, since directions go round.
 int firstSampleFrom(float direction) {
     int low = 0, high = SAMPLES;
-    // Nine halvings do for 256 points; without an exit in between, so that compilers unroll them.
-    for (int step = 0; step < 9; ++step) {
+    // Eleven halvings do for 1,024 points; without an exit in between, so that compilers unroll them.
+    for (int step = 0; step < 11; ++step) {
         int middle = (low + high) / 2;
         bool isBefore = low < high && samples[middle].w < direction;
         high = isBefore ? high : middle;
@@ -42,9 +60,9 @@ bool hidesLight(LightFrame frame, Receiver receiver, LightEdge edge, out SeenEdg
            changeBeyond(frame, receiver, edge, seen) != 0;
 }
 
-// Adds what an edge changes on the way from the light's centre to each of its points. Returns how many points it looked
-// at.
-uint addEdge(LightFrame frame, SeenEdge edge, int change) {
+// Adds what an edge changes on the way from the light's centre to each of its points; isFirst: see offsetOf. Returns how
+// many points it looked at.
+uint addEdge(LightFrame frame, SeenEdge edge, int change, bool isFirst) {
     vec2 from, to;
     if (!partBeforeLight(frame, edge, from, to)) return 0u;
     leastChange = min(leastChange, abs(change));
@@ -57,11 +75,19 @@ uint addEdge(LightFrame frame, SeenEdge edge, int change) {
     float span = isClear ? fract(last - first) + 2.0 * directionRounding : 1.0;
     first = fract(first - directionRounding);
     int start = firstSampleFrom(first);
+    // Of what a point near the edge stands for, a part is on the other side.
+    float across = cellsAcross(frame) / max(length(edge.plane.xy), 1e-30);
+    bool hasArea = across > 0.0;
+    if (edge.hasLeft) across = -across;
     int n = 0;
     for (; n < SAMPLES; ++n) {
         int i = start + n < SAMPLES ? start + n : start + n - SAMPLES;
         if (fract(samples[i].w - first) > span) break;
-        changes[i] += isCrossed(frame, edge, samplePlace(frame, i)) ? change : 0;
+        vec2 s = samplePlace(frame, i);
+        bool isBeyond;
+        if (!isInDirection(frame, edge, s, isBeyond)) continue;
+        float share = clamp(0.5 + across * dot(edge.plane, vec3(s, 1.0)), 0.0, 1.0) - (isBeyond ? 1.0 : 0.0);
+        changes[i] += (isBeyond ? change : 0) + (hasArea ? offsetOf(share, change, isFirst) : 0);
     }
     ++edgesCounted;
     return uint(n);
@@ -78,6 +104,7 @@ vec3 sidePlane(vec3 a, vec3 b) {
 // A face that reaches into a spherical light, in unit space, and the sphere there. A way to the light's point `s` goes on
 // through it: dot with (s, 1) to apply what is said of ways.
 struct SeenFace {
+    vec3 a, b, c;       // its corners
     vec3 ab, bc, ca;    // planes through the receiver and its edges
     bvec3 isTurned;     // which of these are walked against their order
     vec3 alongPlane;    // how far a way leads along the normal of the face's plane
@@ -94,6 +121,9 @@ SeenFace seeFace(LightFrame frame, vec3 posLight, LightEdge record) {
     // The rows of unitFromLight are at right angles to each other.
     vec3 lengths2 = 1.0 / vec3(dot(frame.x, frame.x), dot(frame.y, frame.y), dot(frame.z, frame.z));
     SeenFace face;
+    face.a = a;
+    face.b = b;
+    face.c = c;
     face.ab = sidePlane(a, b);
     face.bc = sidePlane(b, c);
     face.ca = sidePlane(c, a);
@@ -114,6 +144,38 @@ bool isInFace(SeenFace face, vec2 s) {
     return isLeft.x == isLeft.y && isLeft.y == isLeft.z;
 }
 
+// False only where it hides no point: behind the receiver, off to one side of the light, or all of it behind the circle in
+// which the cone from the receiver touches the sphere, where nothing is before the sphere's near side.
+bool mayHide(LightFrame frame, Receiver receiver, LightEdge record) {
+    mat3 unitFromLight = transpose(mat3(frame.x, frame.y, frame.z));
+    vec3 a = unitFromLight * (record.aLight.xyz - receiver.posLight),
+         b = unitFromLight * (record.bLight.xyz - receiver.posLight),
+         c = unitFromLight * (record.planes[0].xyz - receiver.posLight);
+    const float margin = 1.001;
+    vec3 x = vec3(a.x, b.x, c.x), y = vec3(a.y, b.y, c.y), z = vec3(a.z, b.z, c.z), beside = margin * z;
+    bool isBeside = all(greaterThan(x, beside)) || all(lessThan(x, -beside)) || all(greaterThan(y, beside)) ||
+                    all(lessThan(y, -beside));
+    bool isBehind = !frame.isInside && all(greaterThan(z, vec3(margin)));
+    return any(greaterThan(z, vec3(0.0))) && !isBeside && !isBehind;
+}
+
+// In which directions from the light's centre a face may hide points: those up to `span` turns from `first` on.
+void directionsOf(SeenFace face, out float first, out float span) {
+    first = 0.0;
+    span = 1.0;
+    if (isSliver || min(face.a.z, min(face.b.z, face.c.z)) <= 0.0 || isInFace(face, vec2(0.0))) return;
+    vec2 a = face.a.xy / face.a.z, b = face.b.xy / face.b.z, c = face.c.xy / face.c.z;
+    if (min(dot(a, a), min(dot(b, b), dot(c, c))) <= clearOfCenter * clearOfCenter) return;
+    // From the first corner to the others, the shorter way round.
+    float begin = directionOf(a);
+    float toB = fract(directionOf(b) - begin + 0.5) - 0.5, toC = fract(directionOf(c) - begin + 0.5) - 0.5;
+    float low = min(0.0, min(toB, toC)), high = max(0.0, max(toB, toC));
+    // Within rounding of half a turn the centre is on one of its edges.
+    if (high - low > 0.49) return;
+    first = fract(begin + low - directionRounding);
+    span = high - low + 2.0 * directionRounding;
+}
+
 // Whether it hides the point `s`. The way there ends on the sphere's near side; from within it, on the far side.
 bool isHidden(SeenFace face, vec2 s) {
     float middle = -dot(face.fromCenter, vec3(s, 1.0)), square = dot(face.square, vec2(dot(s, s), 1.0));
@@ -127,8 +189,12 @@ bool isHidden(SeenFace face, vec2 s) {
 // how many points it looked at.
 uint addFace(LightFrame frame, Receiver receiver, LightEdge record) {
     SeenFace face = seeFace(frame, receiver.posLight, record);
-    int hidden = 0;
-    for (int i = 0; i < SAMPLES; ++i) {
+    float first, span;
+    directionsOf(face, first, span);
+    int start = firstSampleFrom(first), hidden = 0, n = 0;
+    for (; n < SAMPLES; ++n) {
+        int i = start + n < SAMPLES ? start + n : start + n - SAMPLES;
+        if (fract(samples[i].w - first) > span) break;
         int hides = isHidden(face, samplePlace(frame, i)) ? 1 : 0;
         changes[i] += hides;
         hidden += hides;
@@ -136,5 +202,5 @@ uint addFace(LightFrame frame, Receiver receiver, LightEdge record) {
     meanChangeFixed += hidden * int(fixedOne) / SAMPLES;
     if (hidden > 0 && hidden < SAMPLES) leastChange = 1;
     if (hidden > 0) ++edgesCounted;
-    return uint(SAMPLES);
+    return uint(n);
 }

@@ -14,7 +14,7 @@ class LightPoints {
   public:
     explicit LightPoints(Device& device);
 
-    static constexpr int most = 256;
+    static constexpr int most = 1024;
 
     /// Spreads `count` points over the light's unit square or disk, twice as many where it is textured, but
     /// no more than `most`; and finds what a textured light radiates around each.

@@ -7,6 +7,15 @@ const float stepsAQuarter = 16.0;  // in which an edge is followed around the li
 
 float quartersTo(vec2 d) { return isSquareLight() ? squareAreaTo(d) : 4.0 * atan(d.y, d.x) / lightTau; }
 
+// What the light radiates at its place `s`, by what more of it is beyond the nearer side of the table's cell there.
+vec3 radianceAt(vec2 s) {
+    float share = isSquareLight() ? max(abs(s.x), abs(s.y)) : length(s);
+    int row = min(int(share * float(tableRows)), tableRows - 1);
+    int column = int(fract(0.25 * quartersTo(s)) * float(tableColumns)) % tableColumns;
+    vec3 here = texelFetch(lightTable, ivec2(column, row), 0).rgb - texelFetch(lightTable, ivec2(column, row + 1), 0).rgb;
+    return here / (float(row) + 0.5);
+}
+
 // The share, channel by channel, of the light's radiance that is beyond the part of an edge from `from` to `to`.
 vec3 radianceBeyond(SeenEdge edge, vec2 from, vec2 to) {
     float begin = quartersTo(from), angle = quartersTo(to) - begin;

@@ -36,15 +36,17 @@ bool seeEdge(LightFrame frame, vec3 receiverLight, vec4 aLight, vec4 bLight, out
     return max(a.z, b.z) > 0.0 && (frame.isEndless || !isBehind) && !isBeside;
 }
 
-// Whether the way from the light's centre to its point `s` crosses the edge. What is asked of each end is asked in the same
-// way of the other edges there, so that one of them is crossed and no more.
-bool isCrossed(LightFrame frame, SeenEdge edge, vec2 s) {
+// Whether the edge lies in the direction of the light's point `s`, and, in `isBeyond`, whether the way there from the light's
+// centre crosses it. What is asked of each end is asked in the same way of the other edges there, so that one of them is
+// crossed and no more.
+bool isInDirection(LightFrame frame, SeenEdge edge, vec2 s, out bool isBeyond) {
     precise float ofA = edge.a.x * s.y - edge.a.y * s.x, ofB = edge.b.x * s.y - edge.b.y * s.x;
-    bool isBetween = (ofA >= 0.0) != (ofB >= 0.0), isBeyond = (dot(edge.plane, vec3(s, 1.0)) >= 0.0) != edge.hasLeft;
+    bool isBetween = (ofA >= 0.0) != (ofB >= 0.0);
+    isBeyond = (dot(edge.plane, vec3(s, 1.0)) >= 0.0) != edge.hasLeft;
     // How far the place is where it is crossed, times `weight`: neither behind the receiver nor behind the light.
     float weight = ofB - ofA, depth = edge.a.z * ofB - edge.b.z * ofA;
     if (weight < 0.0) depth = -depth;
-    return isBetween && isBeyond && depth > 0.0 && (frame.isEndless || depth <= abs(weight));
+    return isBetween && depth > 0.0 && (frame.isEndless || depth <= abs(weight));
 }
 
 // Of the shares `begin` to `end` of a segment leaves those where what is `ofA` at one end and `ofB` at the other is positive.

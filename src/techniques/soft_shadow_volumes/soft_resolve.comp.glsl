@@ -99,6 +99,15 @@ uint listMattering(uint word, uint bits) {
     return matteringCount;
 }
 
+// Whether no edge before it in the list, where those of many faces have their records side by side, lies where this one does
+// and hides something, too.
+bool isFirstThere(LightFrame frame, Receiver receiver, uint index) {
+    if (index == 0u) return true;
+    LightEdge edge = lightEdges[index], before = lightEdges[index - 1u];
+    SeenEdge seen;
+    return before.aLight != edge.aLight || before.bLight != edge.bLight || !hidesLight(frame, receiver, before, seen);
+}
+
 // Returns how many iterations no invocation has exceeded.
 uint addMattering(LightFrame frame, Receiver receiver, bool seesLight, uint count) {
     SeenEdge edge;
@@ -108,16 +117,19 @@ uint addMattering(LightFrame frame, Receiver receiver, bool seesLight, uint coun
         uint bits = 0u;
         for (uint i = 0u; i < min(32u, count - first); ++i) {
             LightEdge listed = lightEdges[mattering[first + i]];
-            bool isSeen = listed.aLight.w == wholeFace || (!frame.isInside && hidesLight(frame, receiver, listed, edge));
+            bool isSeen = listed.aLight.w == wholeFace ? mayHide(frame, receiver, listed)
+                                                       : !frame.isInside && hidesLight(frame, receiver, listed, edge);
             if (isSeen) bits |= 1u << i;
         }
         for (; bits != 0u; bits &= bits - 1u) {
-            LightEdge listed = lightEdges[mattering[first + uint(findLSB(bits))]];
+            uint index = mattering[first + uint(findLSB(bits))];
+            LightEdge listed = lightEdges[index];
             if (listed.aLight.w == wholeFace) {
                 most = max(most, addFace(frame, receiver, listed));
             } else {
                 hidesLight(frame, receiver, listed, edge);
-                most = max(most, addEdge(frame, edge, changeBeyond(frame, receiver, listed, edge)));
+                most = max(most, addEdge(frame, edge, changeBeyond(frame, receiver, listed, edge),
+                                          isFirstThere(frame, receiver, index)));
             }
         }
     }

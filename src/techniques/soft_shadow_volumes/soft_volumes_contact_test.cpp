@@ -12,6 +12,7 @@
 #include "studio/scene/builtin/placing.h"
 #include "studio/scene/open_scene.h"
 #include "tests/support/technique_test.h"
+#include "tests/support/wrong_pixels.h"
 
 namespace penumbra::studio {
 namespace {
@@ -25,27 +26,6 @@ class SoftVolumesContactTest : public TechniqueTest {
         std::vector<std::uint8_t> reached;
         for (const float irradiance : truth.reach.values) reached.push_back(irradiance > 1e-6f * most);
         return compareVisibility(truth.visibility, result.visibility, reached);
-    }
-
-    /// Pixels that are off by more than 0.2 while most of those around them are right.
-    static int wrongSinglePixels(const LightResult& truth, const LightResult& result) {
-        const int width = truth.visibility.width_px, height = truth.visibility.height_px;
-        const auto error = [&](int x, int y) {
-            const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
-            if (!(truth.reach.values[i] > 0)) return 0.0;
-            return std::abs(double(result.visibility.values[i]) - double(truth.visibility.values[i]));
-        };
-        int wrong = 0;
-        for (int y = 1; y + 1 < height; ++y) {
-            for (int x = 1; x + 1 < width; ++x) {
-                if (error(x, y) <= 0.2) continue;
-                int right = 0;
-                for (int dy = -1; dy <= 1; ++dy)
-                    for (int dx = -1; dx <= 1; ++dx) right += error(x + dx, y + dy) <= 0.1;
-                wrong += right >= 5;
-            }
-        }
-        return wrong;
     }
 };
 

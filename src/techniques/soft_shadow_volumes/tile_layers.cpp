@@ -27,9 +27,9 @@ std::size_t stateBytes(int samples) {
 }
 
 /// How many edges soft_resolve.comp.glsl takes at once: so few that they take no longer than a round does,
-/// were every point of the light looked at for each. A power of two from 64 to 1,024.
+/// were every point of the light looked at for each. A power of two from 32 to 1,024.
 unsigned edgesAtOnce(int samples) {
-    return std::bit_floor(unsigned(16384 / samples));
+    return std::max(std::bit_floor(unsigned(16384 / samples)), 32u);
 }
 
 }  // namespace

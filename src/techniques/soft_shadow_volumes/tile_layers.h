@@ -26,7 +26,7 @@ class TileLayers {
     };
     /// llvmpipe ends all loops of an invocation, without a word, after 65,535 iterations; the last edges
     /// before a pause may take half of that.
-    static constexpr int softwareRoundWork = 30'000;
+    static constexpr int softwareRoundWork = 28'000;
     /// Elsewhere it is watchdogs that want an end.
     static constexpr int hardwareRoundWork = 1'000'000;
 

@@ -36,7 +36,8 @@ void main() {
         if (makeLightFrame(receiver, frame) && horizonSide(frame) >= 0) {
             float hard = 0.5 * (texelFetch(volumeCounts, texel, 0).r + float(eye.blockers));
 #ifdef SPLIT
-            vec2 layers = vec2(joinedValue(texelFetch(additiveBytes, texel, 0)), joinedValue(texelFetch(subtractiveBytes, texel, 0)));
+            vec2 layers = vec2(joinedValue(texelFetch(additiveBytes, texel, 0)),
+                               joinedValue(texelFetch(subtractiveBytes, texel, 0)));
             vec3 soft = vec3(layers.x - layers.y);
 #else
             vec2 layers = imageLoad(wedgeLayers, texel).rg;
