@@ -26,6 +26,9 @@ int layersOf(LightFrame frame, vec3 posLight, LightTriangle triangle) {
     float ofReceiver = sideOf(triangle.plane, posLight);
     float ofLight = volume.light.shape == shapeDistant ? triangle.plane.z : triangle.plane.w;
     if (ofReceiver * sign(ofLight) >= 0.0) return 0;
+    // Beside an edge that a receiver's face shares with one turned away from the light, the receiver lies within rounding of
+    // both planes. As computed it is behind the other one, which then hides nothing, however much the eye sees of it.
+    if (distanceOf(triangle.plane, posLight) * sign(ofLight) >= 0.0) return 0;
     vec3 a = unitPlace(frame, posLight, triangle.a.xyz), b = unitPlace(frame, posLight, triangle.b.xyz),
          c = unitPlace(frame, posLight, triangle.c.xyz);
     bool left = hasLeft(triangle.a.xyz, triangle.b.xyz, a, b);

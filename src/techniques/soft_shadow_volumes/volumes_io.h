@@ -158,10 +158,16 @@ bool isBefore(vec3 a, vec3 b) {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }
 
+// How far a receiver is from a face's plane, as computed.
+float distanceOf(vec4 plane, vec3 posLight) {
+    precise float side = ((plane.x * posLight.x + plane.y * posLight.y) + plane.z * posLight.z) + plane.w;
+    return side;
+}
+
 // On which side of a face, by its plane, a receiver is. Where that is lost in rounding, as it is of its own
 // face, where the eye is that sees it there.
 float sideOf(vec4 plane, vec3 posLight) {
-    precise float side = ((plane.x * posLight.x + plane.y * posLight.y) + plane.z * posLight.z) + plane.w;
+    float side = distanceOf(plane, posLight);
     precise vec4 ofEye = plane * volume.eyeLight;
     return sign(abs(side) > 1.0 ? side : ((ofEye.x + ofEye.y) + ofEye.z) + ofEye.w);
 }
