@@ -62,6 +62,7 @@ for axis, name in zip(axes, SCENES):
             axis.annotate(value, (cost_ms, error), textcoords="offset points", xytext=(5, 4), fontsize=7)
     axis.set(title=name, xlabel=f"cost of a frame's lights, ms\n({renderer.clock})")
     axis.grid(which="both", alpha=0.2)
+    axis.margins(0.12)
 axes[0].set_ylabel("error of visibility in the penumbra, rms")
 axes[0].legend()
 figure.savefig(arguments.output)
