@@ -3,6 +3,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <exception>
+
 #include "apps/python/bindings.h"
 #include "penumbra/device.h"
 #include "studio/context/headless_context.h"

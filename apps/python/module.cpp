@@ -2,6 +2,10 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <memory>
+#include <string>
+#include <utility>
+
 #include "apps/python/bindings.h"
 #include "penumbra/version.h"
 
