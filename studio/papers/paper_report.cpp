@@ -26,8 +26,30 @@ std::string sentence(const ClaimResult& claim) {
     return text + ").";
 }
 
+/// Which row's numbers of maps are nearest to the paper's, all columns together.
+std::string nearestRow(const TableResult& result) {
+    std::string nearest;
+    double least = INFINITY;
+    for (const Cell& first : result.table.cells) {
+        double distance = 0;
+        std::string counts;
+        for (std::size_t i = 0; i < result.cells.size(); ++i) {
+            const CellResult& cell = result.cells[i];
+            if (result.table.cells[i].row != first.row) continue;
+            distance += cell.ours > 0 ? std::abs(std::log(cell.ours / cell.paper)) : INFINITY;
+            counts += fmt::format("{}{:.0f} (the paper's {:.0f})", counts.empty() ? "" : " and ", cell.ours,
+                                  cell.paper);
+        }
+        if (!(distance < least)) continue;
+        least = distance;
+        nearest = fmt::format("Nearest to the paper's: {}, {} maps.", first.row, counts);
+    }
+    return nearest.empty() ? "Not measured." : nearest;
+}
+
 /// How our ratios relate to the paper's, over all cells but the baseline.
 std::string sentence(const TableResult& result) {
+    if (result.table.unit == "maps") return nearestRow(result);
     double logSum = 0, low = INFINITY, high = 0;
     int count = 0, pairs = 0, agreeing = 0;
     for (std::size_t i = 0; i < result.cells.size(); ++i) {
@@ -74,29 +96,32 @@ std::string optionalNumber(const std::optional<double>& value, const char* forma
 /// The measurements of a figure's panels; ratios of cost are to the first panel that has one.
 std::string measurements(const FigureResult& result) {
     std::vector<std::vector<std::string>> rows;
-    std::optional<double> baseCost, basePaper;
+    std::optional<std::size_t> first;
     bool anything = false;
     for (std::size_t i = 0; i < result.panels.size(); ++i) {
         const Panel& panel = result.figure.panels[i];
         const PanelResult& printed = result.panels[i];
         const bool measured = panel.show == Show::picture || panel.show == Show::visibility;
         if (panel.technique == "reference" || !measured || !printed.missing.empty()) continue;
-        const auto cost_ms = printed.cost_ms ? std::optional(printed.cost_ms->median) : std::nullopt;
-        if (!baseCost) baseCost = cost_ms;
-        if (!basePaper) basePaper = panel.paper;
-        const auto costRatio = cost_ms && baseCost ? std::optional(*cost_ms / *baseCost) : std::nullopt;
+        if (!first && printed.cost_ms) first = i;
+        const std::size_t base = panel.base.value_or(first.value_or(i));
+        const std::optional<Spread>& baseCost = result.panels[base].cost_ms;
+        const std::optional<double>& basePaper = result.figure.panels[base].paper;
+        const auto costRatio = printed.cost_ms && baseCost
+                                   ? std::optional(printed.cost_ms->median / baseCost->median)
+                                   : std::nullopt;
         const auto paperRatio =
             panel.paper && basePaper ? std::optional(*basePaper / *panel.paper) : std::nullopt;
         anything |= printed.cost_ms || printed.penumbraError;
         rows.push_back({panel.caption, optionalNumber(printed.penumbraError, "{:.4f}"),
-                        optionalNumber(printed.maps, "{:.0f}"),
+                        optionalNumber(printed.maps, "{:.0f}"), optionalNumber(panel.paperMaps, "{:.0f}"),
                         printed.cost_ms ? spread(*printed.cost_ms) : "",
                         optionalNumber(costRatio, "{:.2f} x"), optionalNumber(panel.paper, "{:g} fps"),
                         optionalNumber(paperRatio, "{:.2f} x")});
     }
     if (!anything) return "";
-    std::vector<std::string> header = {
-        "", "penumbra RMSE", "maps", "cost", "cost ratio", "the paper's", "paper's cost ratio"};
+    std::vector<std::string> header = {"",     "penumbra RMSE", "maps",        "the paper's maps",
+                                       "cost", "cost ratio",    "the paper's", "paper's cost ratio"};
     // Columns in which nothing stands say nothing.
     for (std::size_t column = header.size(); column-- > 1;) {
         if (std::ranges::any_of(rows, [&](const auto& row) { return !row[column].empty(); })) continue;
@@ -148,10 +173,11 @@ std::string tableHtml(const TableResult& result) {
             const auto column =
                 std::size_t(std::ranges::find(header, table.cells[i].column) - header.begin());
             const CellResult& cell = result.cells[i];
-            row[column] = cell.missing.empty()
-                              ? fmt::format("{}, {:.2f} x\npaper: {:g} {}, {:.2f} x", spread(cell.cost_ms),
-                                            cell.ours, table.cells[i].paper, table.unit, cell.paper)
-                              : cell.missing;
+            row[column] = !cell.missing.empty() ? cell.missing
+                          : table.unit == "maps"
+                              ? fmt::format("{:.0f}\npaper: {:g}", cell.ours, cell.paper)
+                              : fmt::format("{}, {:.2f} x\npaper: {:g} {}, {:.2f} x", spread(cell.cost_ms),
+                                            cell.ours, table.cells[i].paper, table.unit, cell.paper);
         }
     }
     return fmt::format("<h2>{}: {}</h2>\n", html::escape(table.id), html::escape(table.title)) +
@@ -174,7 +200,8 @@ std::string toHtml(const PaperResult& result, const Machine& machine, const Repr
     std::string body = fmt::format(
         "<p>{}</p>\n<p>The paper's hardware: {}. Ours: {}; {} ({}); costs are {} of the shadows alone, "
         "everything moving "
-        "a little from frame to frame, medians and quartiles of {} rounds, ratios to the first of a figure. "
+        "a little from frame to frame, medians and quartiles of {} rounds, ratios to the first of a figure "
+        "or of the same view. "
         "A claim "
         "holds where our ratio is within the stated factor of the paper's or, where the paper has no "
         "numbers, in its "

@@ -31,6 +31,7 @@ TEST(Recipes, NameScenesAndPanelsThatExist) {
                 EXPECT_FALSE(panel.caption.empty());
                 EXPECT_EQ(panel.show == Show::buffer, !panel.buffer.empty());
                 EXPECT_LT(panel.against.value_or(0), figure.panels.size());
+                EXPECT_LT(panel.base.value_or(0), figure.panels.size());
             }
             for (const Claim& claim : figure.claims) {
                 ASSERT_LT(claim.less, figure.panels.size());
@@ -150,6 +151,56 @@ TEST(Reproduction, AClaimHoldsNearThePapersRatioNotWheneverLess) {
     const ClaimResult broken{.text = "t", .ours = 0.5, .paper = {}, .isBroken = true};
     EXPECT_FALSE(broken.holds());
     EXPECT_FALSE((ClaimResult{.text = "t", .ours = {}, .paper = {}}).holds());
+}
+
+TEST(Reproduction, CountsMapsAndSharesOfPasses) {
+    const Situation boxes{.scene = "two-boxes"};
+    const Settings published = {{"published", "true"}, {"map_size", "64"}};
+    Settings corners = published;
+    corners.emplace_back("max_depth", "0");
+    const Paper paper = paperOf(
+        {{.id = "Figure 1",
+          .title = "t",
+          .panels = {{.caption = "a", .situation = boxes, .technique = "adaptive", .settings = published}},
+          .claims = {{.text = "comparing takes a part",
+                      .quantity = Quantity::passShare,
+                      .less = 0,
+                      .factor = 100,
+                      .pass = "queries",
+                      .paper = 0.3}},
+          .judged = false}},
+        {{.id = "Table 1",
+          .title = "t",
+          .unit = "maps",
+          .cells = {{"all", "c", boxes, "adaptive", published, 289},
+                    {"corners", "c", boxes, "adaptive", corners, 4}}}});
+    Workbench workbench;
+    const PaperResult result = reproduce(workbench, paper, tiny);
+    const ClaimResult& share = result.figures[0].claims[0];
+    ASSERT_TRUE(share.ours.has_value());
+    EXPECT_GT(*share.ours, 0);
+    EXPECT_LT(*share.ours, 1);
+    EXPECT_EQ(result.tables[0].cells[1].ours, 4);
+    EXPECT_NE(judgements(result).find("Nearest to the paper's: corners, 4"), std::string::npos)
+        << judgements(result);
+}
+
+TEST(Reproduction, SkipsPlacesInModelsThatAreNotThere) {
+    const Situation place{.scene = "two-boxes",
+                          .model = "models/nowhere.glb",
+                          .placement = Placement{.eye = {1, 1, 1}, .target = {0, 0, 0}}};
+    const Paper paper = paperOf({{.id = "Figure 1",
+                                  .title = "t",
+                                  .panels = {{.caption = "c", .situation = place, .technique = "hard"}}}},
+                                {{.id = "Table 1",
+                                  .title = "t",
+                                  .unit = "maps",
+                                  .cells = {{"row", "column", place, "adaptive", {}, 1}}}});
+    Workbench workbench;
+    const PaperResult result = reproduce(workbench, paper, tiny);
+    EXPECT_NE(result.figures[0].panels[0].missing.find("models/nowhere.glb"), std::string::npos);
+    EXPECT_NE(result.tables[0].cells[0].missing.find("models/nowhere.glb"), std::string::npos);
+    EXPECT_TRUE(result.figures[0].standIns.empty());
 }
 
 TEST(Reproduction, ShowsOfTheLightsBuffersWhatIsInThem) {

@@ -31,10 +31,11 @@ struct Situation {
     std::string scene;  ///< a built-in one
     std::string model =
         {};  ///< a file below the folder of models that stands over a ground instead, where it is there
-    std::optional<Placement> placement = {};  ///< of a model: a place to stand in, which gets no ground
-    std::string camera = {};                  ///< by name; empty: the first
-    float zoom = 1;        ///< of the camera: the tangent of its field of view divided by this
-    float lightScale = 1;  ///< of every light's size
+    /// Of a model: a place to stand in, which gets no ground. Nothing can stand in for the model then.
+    std::optional<Placement> placement = {};
+    std::string camera = {};  ///< by name; empty: the first
+    float zoom = 1;           ///< of the camera: the tangent of its field of view divided by this
+    float lightScale = 1;     ///< of every light's size
     bool blockersReceive = true;
     double time_s = 0;
     bool operator==(const Situation&) const = default;
@@ -61,10 +62,18 @@ struct Panel {
     /// Frames a second of the paper, or milliseconds where `Figure::paperUnit` says so; its cost is measured
     /// here.
     std::optional<double> paper = {};
-    bool timed = false;  ///< its cost is measured although the paper gives no number
+    bool timed = false;                    ///< its cost is measured although the paper gives no number
+    std::optional<double> paperMaps = {};  ///< shadow maps that the paper says it took
+    /// The panel that ratios of cost are to; none: the figure's first that has a cost.
+    std::optional<std::size_t> base = {};
 };
 
-enum class Quantity { cost, penumbraError, maps };
+enum class Quantity {
+    cost,
+    penumbraError,
+    maps,
+    passShare,  ///< of panel `less` alone: what part of its device time passes named like `pass` take
+};
 
 /// That panel `less` has less of something than panel `more`, which the paper says or shows. Where it has
 /// numbers of both, the claim is their ratio, and holds where ours is within `factor` of it; where it has
@@ -74,6 +83,8 @@ struct Claim {
     Quantity quantity = Quantity::cost;
     std::size_t less = 0, more = 1;
     double factor = 1.5;
+    std::string pass = {};             ///< a part of passes' names
+    std::optional<double> paper = {};  ///< the ratio, where the text states it and no panel's numbers do
 };
 
 /// A figure, table or statement of the paper that has no panel here, and why.
@@ -93,7 +104,7 @@ struct Figure {
     std::function<Plot(std::span<const Image>)> plot = {};
 };
 
-/// A cell of a table of costs.
+/// A cell of a table of costs, or of maps.
 struct Cell {
     std::string row, column;
     Situation situation;
@@ -104,7 +115,7 @@ struct Cell {
 
 struct Table {
     std::string id, title;
-    std::string unit;         ///< of the paper's numbers: "fps" or "ms"
+    std::string unit;         ///< of the paper's numbers: "fps" or "ms"; "maps": maps are counted, not costs
     std::string baselineRow;  ///< ratios are to this row in the same column; empty: to the first cell
     std::vector<Cell> cells = {};
     std::string note = {};

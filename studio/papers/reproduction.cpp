@@ -30,8 +30,19 @@ struct Rendering {
     std::map<std::string, Image> buffers;  ///< by the name that was asked for
     std::optional<double> penumbraError, maps;
     std::optional<Spread> cost_ms;
+    std::vector<PassTime> passes;
     double wrongShare = 0;  ///< see PanelResult
 };
+
+/// What part of all passes' time those take whose names have `part` in them.
+std::optional<double> shareOf(std::span<const PassTime> passes, const std::string& part) {
+    double named_ms = 0, all_ms = 0;
+    for (const PassTime& pass : passes) {
+        all_ms += pass.milliseconds;
+        if (pass.name.find(part) != std::string_view::npos) named_ms += pass.milliseconds;
+    }
+    return all_ms > 0 ? std::optional(named_ms / all_ms) : std::nullopt;
+}
 
 double meanPenumbraError(const TechniqueComparison& technique) {
     double sum = 0;
@@ -73,8 +84,8 @@ class Reproduction {
         return false;
     }
 
-    /// Opens the situation's scene unless it is open.
-    StageView enter(const Situation& situation, std::vector<std::string>& standIns) {
+    /// Opens the situation's scene unless it is open. `skipped` says why where it cannot be.
+    StageView enter(const Situation& situation, std::vector<std::string>& standIns, std::string& skipped) {
         const std::string key =
             situation.scene + "|" + situation.model + (situation.placement ? "|placed" : "");
         if (key != openKey_) {
@@ -82,13 +93,17 @@ class Reproduction {
             workbench_.open(stage_->scene);
             openKey_ = key;
         }
-        if (!stage_->standIn.empty()) {
+        if (!stage_->standIn.empty() && situation.placement) {
+            skipped = fmt::format("skipped: {} is not among the models (--models)", situation.model);
+        } else if (!stage_->standIn.empty()) {
             const std::string text = fmt::format("{} for {}", stage_->standIn, situation.model);
             if (std::ranges::find(standIns, text) == standIns.end()) standIns.push_back(text);
         }
         return viewOf(*stage_, situation);
     }
 
+    /// How many maps each contender draws.
+    std::map<std::string, double> maps(const StageView& view, const std::vector<Contender>& contenders);
     std::map<std::string, Spread> costs(const StageView& view, std::vector<Contender> contenders);
     std::map<std::string, Rendering> render(const Figure& figure, const Situation& situation,
                                             std::vector<std::string>& standIns);
@@ -112,11 +127,30 @@ std::map<std::string, Spread> Reproduction::costs(const StageView& view, std::ve
     return costs_ms;
 }
 
+std::map<std::string, double> Reproduction::maps(const StageView& view,
+                                                 const std::vector<Contender>& contenders) {
+    std::map<std::string, double> maps;
+    const Comparison comparison = judge(workbench_, stage_->scene, view.moment, view.camera, options_.size,
+                                        contenders, {.samples = 1, .timedRuns = 0});
+    for (const TechniqueComparison& technique : comparison.techniques)
+        maps[technique.technique] = mapsOf(technique).value_or(0);
+    return maps;
+}
+
 /// Everything that the figure wants of one situation, by keyOf().
 std::map<std::string, Rendering> Reproduction::render(const Figure& figure, const Situation& situation,
                                                       std::vector<std::string>& standIns) {
-    const StageView view = enter(situation, standIns);
+    std::string skipped;
+    const StageView view = enter(situation, standIns, skipped);
     std::map<std::string, Rendering> renderings;
+    if (!skipped.empty()) {
+        for (const Panel& panel : figure.panels) {
+            if (panel.situation == situation)
+                renderings[keyOf(panel.technique, panel.settings)].missing = skipped;
+        }
+        renderings["reference"].missing = skipped;
+        return renderings;
+    }
     std::vector<Contender> contenders, timed;
     std::map<std::string, std::vector<std::string>> buffers;
     for (const Panel& panel : figure.panels) {
@@ -132,6 +166,7 @@ std::map<std::string, Rendering> Reproduction::render(const Figure& figure, cons
     }
 
     const auto inspect = [&](const Contender& contender, const Technique& technique) {
+        renderings[contender.label].passes = technique.statistics().passes;
         for (const std::string& name : buffers[contender.label]) {
             if (std::optional<Image> picture = bufferPicture(technique, name, options_.size))
                 renderings[contender.label].buffers[name] = std::move(*picture);
@@ -229,16 +264,24 @@ FigureResult Reproduction::evaluate(const Figure& figure) {
         const auto ratio = [](const std::optional<double>& a, const std::optional<double>& b) {
             return a && b && *b > 0 ? std::optional<double>(*a / *b) : std::nullopt;
         };
+        if (claim.paper) judged.paper = claim.paper;
         switch (claim.quantity) {
             case Quantity::cost:
                 judged.ours = ratio(median(less), median(more));
-                judged.paper = ratio(figure.panels[claim.more].paper, figure.panels[claim.less].paper);
+                if (!judged.paper)
+                    judged.paper = ratio(figure.panels[claim.more].paper, figure.panels[claim.less].paper);
                 break;
             case Quantity::penumbraError:
                 judged.ours = ratio(less.penumbraError, more.penumbraError);
                 break;
             case Quantity::maps:
                 judged.ours = ratio(less.maps, more.maps);
+                if (!judged.paper)
+                    judged.paper =
+                        ratio(figure.panels[claim.less].paperMaps, figure.panels[claim.more].paperMaps);
+                break;
+            case Quantity::passShare:
+                judged.ours = shareOf(renderingOf(figure.panels[claim.less]).passes, claim.pass);
                 break;
         }
     }
@@ -254,14 +297,25 @@ TableResult Reproduction::evaluate(const Table& table) {
         if (std::ranges::find(columns, column) == columns.end()) columns.push_back(column);
     }
     for (const auto& [situation, column] : columns) {
-        const StageView view = enter(situation, result.standIns);
+        std::string skipped;
+        const StageView view = enter(situation, result.standIns, skipped);
         std::vector<Contender> contenders;
         for (std::size_t i = 0; i < table.cells.size(); ++i) {
             if (table.cells[i].situation != situation || table.cells[i].column != column) continue;
+            if (!skipped.empty()) {
+                result.cells[i].missing = skipped;
+                continue;
+            }
             const Contender contender{.label = std::to_string(i),
                                       .technique = table.cells[i].technique,
                                       .settings = table.cells[i].settings};
             if (exists(contender, result.cells[i].missing)) contenders.push_back(contender);
+        }
+        if (contenders.empty()) continue;
+        if (table.unit == "maps") {
+            for (const auto& [label, count] : maps(view, contenders))
+                result.cells[std::size_t(std::stoi(label))].ours = count;
+            continue;
         }
         const std::map<std::string, Spread> measured = costs(view, contenders);
         for (const Contender& contender : contenders) {
@@ -269,6 +323,10 @@ TableResult Reproduction::evaluate(const Table& table) {
         }
     }
 
+    if (table.unit == "maps") {
+        for (std::size_t i = 0; i < table.cells.size(); ++i) result.cells[i].paper = table.cells[i].paper;
+        return result;
+    }
     const auto paperCost = [&](const Cell& cell) {
         return table.unit == "fps" ? 1 / cell.paper : cell.paper;
     };

@@ -25,7 +25,8 @@ inline constexpr double brokenShare = 0.05;
 
 struct ClaimResult {
     std::string text;
-    std::optional<double> ours;   ///< quantity of the lesser panel over that of the other; none: not measured
+    std::optional<double> ours;  ///< quantity of the lesser panel over that of the other, or its share; none:
+                                 ///< not measured
     std::optional<double> paper;  ///< the same of the paper's numbers
     double factor = 1.5;          ///< see Claim
     bool isBroken = false;        ///< the lesser panel's picture is
@@ -47,7 +48,7 @@ struct FigureResult {
 struct CellResult {
     std::string missing;
     Spread cost_ms;
-    double ours = 0, paper = 0;  ///< ratios of cost to the table's baseline
+    double ours = 0, paper = 0;  ///< ratios of cost to the table's baseline; of maps: their numbers
 };
 
 struct TableResult {
