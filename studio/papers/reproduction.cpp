@@ -131,7 +131,7 @@ std::map<std::string, double> Reproduction::maps(const StageView& view,
                                                  const std::vector<Contender>& contenders) {
     std::map<std::string, double> maps;
     const Comparison comparison = judge(workbench_, stage_->scene, view.moment, view.camera, options_.size,
-                                        contenders, {.samples = 1, .timedRuns = 0});
+                                        contenders, {.samples = 2, .timedRuns = 0});
     for (const TechniqueComparison& technique : comparison.techniques)
         maps[technique.technique] = mapsOf(technique).value_or(0);
     return maps;
