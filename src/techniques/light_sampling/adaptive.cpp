@@ -35,7 +35,10 @@ constexpr float errorOfSmoothedCell = 0.042f;
 
 /// Of a tree whose every quad is split once.
 constexpr int leastSamples = 9;
-constexpr int leastSlots = 2 * leastSamples;  ///< with those of the last frame
+
+/// Of a light's maps. What is compared stays, 81 maps at most, and the others come in batches. Suns take
+/// more: there texels are what errors come from. So does the paper, which keeps all of its maps.
+constexpr double memory_bytes = 120.0 * 1024 * 1024, largeMemory_bytes = 320.0 * 1024 * 1024;
 
 /// Steps of an eighth, of which the error of a ramp is 0.04.
 constexpr int depthWithoutFilter = 3;
@@ -146,7 +149,7 @@ SubdivisionOptions AdaptiveLightSampling::treeOptionsFor(const AreaLight& light,
     if (light.shape == LightShape::distant) {
         const double sample_bytes =
             SampleMaps::texel_bytes * mapSize_px * mapSize_px * std::max(1, cameras_.faces);
-        const int room = int(SampleMaps::memory_bytes / sample_bytes);
+        const int room = int(largeMemory_bytes / sample_bytes);
         if (room < options.mostSlotsInAll())
             options.maxSamples = std::min(options.maxSamples, std::max(leastSamples, room / 2));
     }
@@ -154,6 +157,15 @@ SubdivisionOptions AdaptiveLightSampling::treeOptionsFor(const AreaLight& light,
     if (smooths_ && usesBits() && cameras_.isCube)
         options.minDepth = std::max(depthWithoutFilter, options.minDepth);
     return options;
+}
+
+SampleMaps::Room AdaptiveLightSampling::roomFor(const AreaLight& light) const {
+    if (isCenterAlone_) return {.memory_bytes = largeMemory_bytes};
+    if (countsByQueries(light))
+        return {.samples = options_.maxSamples, .memory_bytes = largeMemory_bytes, .staysWithin = true};
+    return {.samples = treeOptions_.mostSlotsInAll(),
+            .compared = treeOptions_.mostCompared(),
+            .memory_bytes = light.shape == LightShape::distant ? largeMemory_bytes : memory_bytes};
 }
 
 void AdaptiveLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
@@ -170,22 +182,19 @@ void AdaptiveLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer&
     appendBytes(key_, mapSize_px_);
     appendBytes(key_, usesCorners());
     appendBytes(key_, jitter_);
+    appendBytes(key_, reuses_);  // else no answer has been kept
     const bool usesQueries = countsByQueries(inputs.light);
-    wasStatic_ = reuses_ && !usesQueries && isKnown && key_ == lastKey_ && maps_.isResident();
+    wasStatic_ = reuses_ && !usesQueries && isKnown && key_ == lastKey_;
     lastKey_.clear();  // until the frame is complete
 
     if (!wasStatic_) {
         const LightSpaceScene scene = makeLightSpaceScene(inputs, frame.lightFromWorld);
         const LightSurface surface(inputs.light, scene);
         chooseSamples(inputs.light, surface);
-        const int mapSize_px =
-            cameras_.fitMaps(inputs.light, surface, samples_, scene, mapSize_px_,
-                             SampleMaps::memory_bytes / (leastSlots * SampleMaps::texel_bytes));
+        const int mapSize_px = cameras_.fitMaps(inputs.light, surface, samples_, scene, mapSize_px_,
+                                                largeMemory_bytes / (leastSamples * SampleMaps::texel_bytes));
         treeOptions_ = treeOptionsFor(inputs.light, mapSize_px);
-        maps_.prepare(inputs.casters, scene, samples_, cameras_, mapSize_px,
-                      isCenterAlone_ ? 1
-                      : usesQueries  ? options_.maxSamples
-                                     : treeOptions_.mostSlotsInAll());
+        maps_.prepare(inputs.casters, scene, samples_, cameras_, mapSize_px, roomFor(inputs.light));
     }
     maps_.keep(inputs.casters);
     view_.fill(inputs.view, frame.lightFromWorld);
@@ -217,7 +226,7 @@ void AdaptiveLightSampling::renderCenterAlone(const Frame& frame) {
         const auto pass = timers_.pass(lastMapsPass);
         maps_.draw(stageOfAll, 0, cameras_, {});
     }
-    evaluateBatch(frame, stageOfAll, 0, 1);
+    evaluateBatch(frame, {});
 }
 
 void AdaptiveLightSampling::renderByQueries(const Frame& frame) {
@@ -269,10 +278,11 @@ void AdaptiveLightSampling::subdivide(const Frame& frame) {
     treeOptions_.cellError = taps() > 0 ? errorOfSmoothedCell : errorOfUnknownCell;
     findReceivers(frame);
     if (wasStatic_) {
-        // Nothing changes, but the maps are asked again, in case the host's depth has, and drawn again if so.
-        if (usesBits()) {
-            drawMaps(stageOfCoarse, 0, mapPasses[0], needs(treeOptions_.baseDepth()));
-            compare(frame, stageOfCoarse, 0, 0);
+        // Nothing changes, but the host's depth may: what the device has found to be elsewhere is done again.
+        evaluation_.restore(frame.out);
+        for (int batch = 0; usesBits() && batch < maps_.batches(treeOptions_.mostCompared()); ++batch) {
+            drawMaps(stageOfCoarse, batch, mapPasses[0], needs(treeOptions_.baseDepth()));
+            compare(frame, stageOfCoarse, batch, 0);
         }
         return;
     }
@@ -296,7 +306,8 @@ void AdaptiveLightSampling::subdivide(const Frame& frame) {
 
 void AdaptiveLightSampling::compare(const Frame& frame, int stage, int batch, int round) {
     const auto pass = timers_.pass(comparisonPasses[std::size_t(round)]);
-    subdivision_.compare(frame.inputs, view_, cameras_, maps_, treeOptions_, stage, batch);
+    subdivision_.compare(frame.inputs, view_, cameras_, maps_, treeOptions_, stage, batch,
+                         wasStatic_ ? &receivers_.redraw() : nullptr);
 }
 
 void AdaptiveLightSampling::weigh(const Frame& frame) {
@@ -324,31 +335,35 @@ void AdaptiveLightSampling::evaluate(const Frame& frame) {
         ofDeepest.tiles = &receivers_.unsettled();
         ofDeepest.asksByQuads = true;
         const int mostSlots = treeOptions_.mostSlots(treeOptions_.rounds());
-        for (int batch = 0; batch < maps_.batches(mostSlots); ++batch) {
+        const int batches = maps_.batchesOfDeepest(mostSlots);
+        for (int batch = 0; batch < batches; ++batch) {
             drawMaps(stageOfDeepest, batch, lastMapsPass, ofDeepest);
-            evaluateBatch(frame, stageOfDeepest, batch, mostSlots);
+            evaluateBatch(frame, {.stage = stageOfDeepest,
+                                  .batch = batch,
+                                  .mostSlots = std::min(maps_.capacity(), mostSlots),
+                                  .isOnlyOne = batches == 1,
+                                  .bits = &subdivision_,
+                                  .taps = taps()});
         }
         return;
     }
-    const bool isResident = maps_.isResident();
-    if (isResident) drawMaps(wasStatic_ ? stageOfAll : stageOfDeepest, 0, lastMapsPass, ofDeepest);
-    for (int batch = 0; batch < maps_.batches(treeOptions_.maxSamples); ++batch) {
-        if (!isResident) drawMaps(stageOfAll, batch, lastMapsPass, ofDeepest);
-        evaluateBatch(frame, stageOfAll, batch, treeOptions_.maxSamples);
+    const bool isWhole = maps_.isWhole();
+    const int batches = maps_.batches(treeOptions_.maxSamples);
+    if (isWhole) drawMaps(wasStatic_ ? stageOfAll : stageOfDeepest, 0, lastMapsPass, ofDeepest);
+    for (int batch = 0; batch < batches; ++batch) {
+        if (!isWhole) drawMaps(stageOfAll, batch, lastMapsPass, ofDeepest);
+        evaluateBatch(frame, {.stage = stageOfAll,
+                              .batch = batch,
+                              .mostSlots = std::min(maps_.capacity(), treeOptions_.maxSamples),
+                              .isOnlyOne = batches == 1});
     }
 }
 
-void AdaptiveLightSampling::evaluateBatch(const Frame& frame, int stage, int batch, int mostSlots) {
+void AdaptiveLightSampling::evaluateBatch(const Frame& frame, SampleEvaluation::Batch batch) {
     const auto pass = timers_.pass("adaptive/evaluation");
-    evaluation_.add(frame.inputs, view_, cameras_, evaluationOptions_, maps_,
-                    {.stage = stage,
-                     .batch = batch,
-                     .mostSlots = std::min(maps_.capacity(), mostSlots),
-                     .starts = batch == 0,
-                     .ends = batch == maps_.batches(mostSlots) - 1,
-                     .bits = stage == stageOfDeepest ? &subdivision_ : nullptr,
-                     .taps = stage == stageOfDeepest ? taps() : 0},
-                    frame.out);
+    batch.isKept = reuses_ && !isCenterAlone_;
+    batch.redraw = batch.isKept && wasStatic_ ? &receivers_.redraw() : nullptr;
+    evaluation_.add(frame.inputs, view_, cameras_, evaluationOptions_, maps_, batch, frame.out);
 }
 
 void AdaptiveLightSampling::inspect(InspectionVisitor& visitor) const {

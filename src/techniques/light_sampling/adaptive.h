@@ -45,6 +45,7 @@ class AdaptiveLightSampling final : public Technique {
     bool usesBits() const;
     int taps() const;
     SubdivisionOptions treeOptionsFor(const AreaLight& light, int mapSize_px) const;
+    SampleMaps::Room roomFor(const AreaLight& light) const;
     void chooseSamples(const AreaLight& light, const LightSurface& surface);
     void renderCenterAlone(const Frame& frame);
     void subdivide(const Frame& frame);
@@ -55,7 +56,7 @@ class AdaptiveLightSampling final : public Technique {
     void compare(const Frame& frame, int stage, int batch, int round);
     void weigh(const Frame& frame);
     void evaluate(const Frame& frame);
-    void evaluateBatch(const Frame& frame, int stage, int batch, int mostSlots);
+    void evaluateBatch(const Frame& frame, SampleEvaluation::Batch batch);
 
     Device& device_;
     SubdivisionOptions options_;

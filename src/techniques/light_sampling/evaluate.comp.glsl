@@ -3,7 +3,8 @@
 // Sums what the receivers see of a batch's samples (equation 2, with weights). Variants of sample_test.glsl, and
 // COLORED, where the light is textured; PARTIAL, where the sum takes several passes; BITS, where the comparison left the
 // shadow values of coarse samples, and those of the deepest level are looked up only where the corners of their quads
-// disagree; SMOOTH, where samples that disagree are asked for their cells.
+// disagree; SMOOTH, where samples that disagree are asked for their cells; KEPT, where the answer is kept for frames in
+// which nothing changes.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/common/view.glsl"
@@ -11,6 +12,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/light_sampling/value.glsl"
 
 uniform writeonly image2D visibility;
+#ifdef KEPT
+layout(FORMAT) uniform writeonly image2D kept;
+#endif
 #ifdef PARTIAL
 layout(FORMAT) uniform image2D seenSoFar;
 layout(FORMAT) uniform image2D wholeSoFar;
@@ -34,17 +38,30 @@ layout(std140) uniform Constants { EvaluateConstants constants; };
 #include "src/techniques/light_sampling/smooth.glsl"
 #endif
 
+void answer(ivec2 pixel, vec4 seen) {
+    imageStore(visibility, pixel, seen);
+#ifdef KEPT
+    imageStore(kept, pixel, seen);
+#endif
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, view.size_px.xy))) return;
+    bool isInOrder = batch.isResident && batch.stage == stageOfAll;
 #ifdef PARTIAL
-    bool starts = constants.starts, ends = constants.ends;
+    // How many slots there are the device alone may know: what comes after the last of them has nothing left to do.
+    int slotsInAll = isInOrder ? plan.evaluated.x : plan.stages[batch.stage].y;
+    int slotsBefore = batch.index * slotsInBatch();
+    if (slotsBefore + constants.firstSlot >= max(slotsInAll, 1)) return;
+    bool starts = slotsBefore + constants.firstSlot == 0;
+    bool ends = slotsBefore + min(constants.endSlot, slotsInBatch()) >= slotsInAll;
 #else
     const bool starts = true, ends = true;
 #endif
     Receiver receiver;
     if (!loadReceiver(pixel, receiver)) {
-        if (ends) imageStore(visibility, pixel, vec4(1.0));
+        if (ends) answer(pixel, vec4(1.0));
         return;
     }
     VALUE seen = VALUE(0.0), whole = VALUE(0.0);
@@ -59,7 +76,7 @@ void main() {
 #ifdef BITS
         Comparison comparison = loadComparison(pixel);
         if (isSettled(comparison, receiver)) {
-            if (ends) imageStore(visibility, pixel, vec4(isAnyShadowed(comparison) ? 0.0 : 1.0));
+            if (ends) answer(pixel, vec4(isAnyShadowed(comparison) ? 0.0 : 1.0));
             return;
         }
         comparison.counted = uvec4(0u);
@@ -79,7 +96,7 @@ void main() {
 #ifdef SMOOTH
         findBorder(comparison);
         float nearness = meanNearness(comparison, lookup);
-        for (int word = 0; word < 3 && nearness > 0.0; ++word) {
+        for (int word = 0; word < 3 && nearness > 0.0 && starts; ++word) {
             for (uint rest = comparison.border[word]; rest != 0u; rest &= rest - 1u) {
                 int vertex = vertexOf(word, findLSB(rest));
                 VALUE weight = countOf(samples[vertex], receiver) * WEIGHT(samples[vertex]);
@@ -89,7 +106,6 @@ void main() {
         }
 #endif
 #endif
-        bool isInOrder = batch.isResident && batch.stage == stageOfAll;
         int first = firstSlot();
         int end = min(isInOrder ? plan.evaluated.x : slotCount(), constants.endSlot);
         for (int i = constants.firstSlot; i < end; ++i) {
@@ -129,5 +145,5 @@ void main() {
 #else
     float quotient = whole > 0.0 ? seen / whole : 0.0;
 #endif
-    imageStore(visibility, pixel, TO(clamp(quotient, VALUE(0.0), VALUE(1.0))));
+    answer(pixel, TO(clamp(quotient, VALUE(0.0), VALUE(1.0))));
 }

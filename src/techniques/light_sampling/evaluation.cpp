@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 
 #include "src/techniques/light_sampling/subdivision.h"
 
@@ -31,6 +32,7 @@ std::vector<std::string> SampleLookup::Variant::defines() const {
     if (features.bits) defines.push_back("BITS");
     if (features.smooth) defines.push_back("SMOOTH");
     if (features.partial) defines.push_back("PARTIAL");
+    if (features.kept) defines.push_back("KEPT");
     if (distant) defines.push_back("DISTANT");
     if (sphere) defines.push_back("SPHERE");
     if (cube) defines.push_back("CUBE");
@@ -65,38 +67,49 @@ const gl::Program& SampleLookup::prepare(const AreaLight& light, const SampleCam
 }
 
 SampleEvaluation::SampleEvaluation(Device& device)
-    : lookup_(device, {"src/techniques/light_sampling/evaluate.comp.glsl"}) {}
+    : lookup_(device, {"src/techniques/light_sampling/evaluate.comp.glsl"}),
+      restore_(internalsOf(device).shaders, {"src/techniques/light_sampling/restore.comp.glsl"}) {}
+
+void SampleEvaluation::restore(VisibilityBuffer& out) {
+    gl::Pass(restore_)
+        .bind("kept", kept_)
+        .bind("visibility", imageOf(out))
+        .dispatchPixels(out.width_px(), out.height_px());
+}
 
 void SampleEvaluation::add(const ShadowInputs& inputs, const ViewBinding& view, const SampleCameras& cameras,
                            const EvaluationOptions& options, SampleMaps& maps, const Batch& batch,
                            VisibilityBuffer& out) {
     const bool byPass = options.path == EvaluationOptions::accumulation && batch.mostSlots > 1;
-    const bool isPartial = byPass || !batch.starts || !batch.ends;
+    const bool isPartial = byPass || !batch.isOnlyOne;
+    const gl::TextureSpec spec{.width_px = out.width_px(),
+                               .height_px = out.height_px(),
+                               .format = out.colored() ? gl::Format::rgba32f : gl::Format::r32f,
+                               .label = "light sampling accumulation"};
     if (isPartial) {
-        const gl::TextureSpec spec{.width_px = out.width_px(),
-                                   .height_px = out.height_px(),
-                                   .format = out.colored() ? gl::Format::rgba32f : gl::Format::r32f,
-                                   .label = "light sampling accumulation"};
         seen_.fit(spec);
         whole_.fit(spec);
     }
+    if (batch.isKept) kept_.fit(spec);
     maps.choose(batch.stage, batch.batch);
     gl::Pass pass(lookup_.prepare(inputs.light, cameras, options,
                                   {.colored = out.colored(),
                                    .bits = batch.bits != nullptr,
                                    .smooth = batch.taps > 0,
-                                   .partial = isPartial}));
+                                   .partial = isPartial,
+                                   .kept = batch.isKept}));
     pass.bind(view).bind(maps).bind(lookup_).bind("visibility", imageOf(out));
     if (batch.bits != nullptr) pass.bind(*batch.bits);
     if (isPartial) pass.bind("seenSoFar", seen_).bind("wholeSoFar", whole_).inOrder();
+    if (batch.isKept) pass.bind("kept", kept_);
     const int step = byPass ? 1 : batch.mostSlots;
     for (int slot = 0; slot < batch.mostSlots; slot += step) {
-        pass.constants(EvaluateConstants{.firstSlot = slot,
-                                         .endSlot = slot + step,
-                                         .starts = batch.starts && slot == 0,
-                                         .ends = batch.ends && slot + step >= batch.mostSlots,
-                                         .taps = batch.taps});
-        pass.dispatchPixels(out.width_px(), out.height_px());
+        pass.constants(EvaluateConstants{.firstSlot = slot, .endSlot = slot + step, .taps = batch.taps});
+        if (batch.redraw != nullptr) {
+            pass.dispatchIndirect(*batch.redraw, offsetof(RedrawGroups, pixels));
+        } else {
+            pass.dispatchPixels(out.width_px(), out.height_px());
+        }
     }
 }
 

@@ -37,6 +37,7 @@ class SampleLookup {
         bool bits = false;     ///< reads what was compared from shadow bits
         bool smooth = false;   ///< filters between samples that disagree
         bool partial = false;  ///< adds to a sum that takes several passes
+        bool kept = false;     ///< the answer is, for frames in which nothing changes
         auto operator<=>(const Features&) const = default;
     };
 
@@ -71,10 +72,15 @@ class SampleEvaluation {
         int stage = stageOfAll;
         int batch = 0;
         int mostSlots = 1;                        ///< it can hold
-        bool starts = true, ends = true;          ///< the sum
+        bool isOnlyOne = true;                    ///< that makes the sum
         const SubdivisionPasses* bits = nullptr;  ///< where all that was compared comes from; or null
-        int taps = 0;  ///< of the filter between samples that disagree, a power of two; 0: none
+        int taps = 0;         ///< of the filter between samples that disagree, a power of two; 0: none
+        bool isKept = false;  ///< for restore()
+        const gl::Buffer* redraw = nullptr;  ///< RedrawGroups: none if the kept answer will do; or null
     };
+
+    /// The last answer that was kept, of the same size.
+    void restore(VisibilityBuffer& out);
 
     /// Adds a batch to the sums.
     void add(const ShadowInputs& inputs, const ViewBinding& view, const SampleCameras& cameras,
@@ -82,7 +88,8 @@ class SampleEvaluation {
 
   private:
     SampleLookup lookup_;
-    gl::Texture seen_, whole_;
+    gl::Program restore_;
+    gl::Texture seen_, whole_, kept_;
 };
 
 /// Shares of a textured light's radiance.

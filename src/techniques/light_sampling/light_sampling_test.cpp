@@ -92,6 +92,32 @@ TEST_F(LightSamplingTest, BatchesAndPathsOfEvaluationAgree) {
     EXPECT_LE(largestDifference(adaptive, render("adaptive", scene, size, bareByPass)), 1e-6);
 }
 
+TEST_F(LightSamplingTest, ManySamplesShareTheRoomThatIsLeft) {
+    // Of 289 maps of 512 texels 120 fit: those that are compared stay, the others come and go.
+    struct Layers : InspectionVisitor {
+        int count = 0;
+        void texture(const InspectedTexture& texture) override {
+            if (texture.name == std::string_view("depth maps")) count = texture.layers;
+        }
+    } layers;
+    const Scene scene = halfPlaneFromAbove();
+    const LightResult uniform = render("uniform", scene, size, {});
+    for (const Settings& settings : {Settings{{"min_depth", "4"}}, Settings{{"max_error", "1e-6"}}}) {
+        const std::unique_ptr<Technique> technique = workbench().makeTechnique("adaptive");
+        setParameter(*technique, "smooth", "false");
+        setParameter(*technique, settings.front().first, settings.front().second);
+        const LightResult first = render(*technique, scene, size);
+        EXPECT_EQ(count(first, "samples"), 289);
+        EXPECT_LE(rmsDifference(first, uniform), 1.0 / 289) << settings.front().first;
+        technique->inspect(layers);
+        EXPECT_EQ(layers.count, 120);
+        EXPECT_EQ(first.visibility.values, render(*technique, scene, size).visibility.values);
+    }
+    // The filter between samples asks compared ones alone.
+    const double smooth = rampRmse(render("adaptive", scene, size, {{"min_depth", "3"}}), size);
+    EXPECT_LT(smooth, 0.7 * rampRmse(render("adaptive", scene, size, {{"smooth", "false"}}), size));
+}
+
 TEST_F(LightSamplingTest, LayersChosenByTheVertexShaderOrOneByOneAreTheSame) {
     const Scene scene = makeBuiltin("two-boxes");
     bool& layerFromVertexShader = internalsOf(workbench().device()).layerFromVertexShader;

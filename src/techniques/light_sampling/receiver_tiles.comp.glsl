@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
-// Where the picture's receivers are, tile by tile: what maps have to show. A group a tile. Variants of sample_test.glsl,
+// Where the picture's receivers are, tile by tile: what maps have to show, and whether anything has moved. A group a tile. Variants of sample_test.glsl,
 // and BITS: only receivers that ask for samples that were not compared, and in which quads of level 3 these lie.
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -46,9 +46,26 @@ struct Part {
     uvec2 quads;
 };
 
+#ifndef BITS
+// Changes with any bit of the receiver (Jarzynski and Olano 2020, pcg).
+uvec2 sumOf(ivec2 pixel, Receiver receiver) {
+    uvec3 pos = floatBitsToUint(receiver.posLight), normal = floatBitsToUint(receiver.normalLight);
+    uvec2 sum = uvec2(pixel);
+    for (int i = 0; i < 3; ++i) {
+        sum = (sum ^ uvec2(pos[i], normal[i])) * 1664525u + 1013904223u;
+        sum += sum.yx * 1664525u;
+        sum ^= sum >> 16u;
+    }
+    return sum;
+}
+#endif
+
 void add(ivec2 pixel, inout Part part) {
     Receiver receiver;
     if (any(greaterThanEqual(pixel, view.size_px.xy)) || !loadReceiver(pixel, receiver)) return;
+#ifndef BITS
+    part.quads += sumOf(pixel, receiver);
+#endif
     if (isBehindLight(receiver)) return;
 #ifdef BITS
     Comparison comparison = loadComparison(pixel);
@@ -93,7 +110,13 @@ void main() {
             atomicMin(low[i], orderedBits(part.low[i]));
             atomicMax(high[i], orderedBits(part.high[i]));
         }
-        for (int i = 0; i < 2; ++i) atomicOr(quads[i], part.quads[i]);
+    }
+    for (int i = 0; i < 2; ++i) {
+#ifdef BITS
+        if (part.quads[i] != 0u) atomicOr(quads[i], part.quads[i]);
+#else
+        if (part.quads[i] != 0u) atomicAdd(quads[i], part.quads[i]);
+#endif
     }
     barrier();
     if (gl_LocalInvocationIndex != 0u) return;
@@ -105,6 +128,7 @@ void main() {
     if (tiles[index].low != tile.low || tiles[index].high != tile.high) {
         redraw.tiles.x = gl_NumWorkGroups.x;
         redraw.slots.x = uint(constants.slots);
+        redraw.pixels.x = uint(constants.size_px.x + 7) / 8u;
     }
 #endif
     tiles[index] = tile;

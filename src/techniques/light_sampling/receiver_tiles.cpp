@@ -43,11 +43,12 @@ void ReceiverTiles::findAll(const ShadowInputs& inputs, const ViewBinding& view,
         down_ = (out.height_px() + tile_px_ - 1) / tile_px_;
         if (count() <= enough) break;
     }
-    const RedrawGroups none{{0, down_, 1, 0}, {0, 1, 1, 0}};
+    const RedrawGroups none{{0, down_, 1, 0}, {0, 1, 1, 0}, {0, (out.height_px() + 7) / 8, 1, 0}};
     redraw_.write(std::as_bytes(std::span(&none, 1)));
     maps.choose(stageOfAll, 0);
     gl::Pass(lookup_.prepare(inputs.light, cameras, {}, {}))
-        .constants(ReceiverTilesConstants{.tile_px = tile_px_, .slots = maps.capacity()})
+        .constants(ReceiverTilesConstants{
+            .size_px = {out.width_px(), out.height_px()}, .tile_px = tile_px_, .slots = maps.capacity()})
         .bind(view)
         .bind(maps)
         .bind(lookup_)

@@ -93,7 +93,7 @@ int SampleCameras::fitMaps(const AreaLight& light, const LightSurface& surface,
         const double finer =
             std::sqrt(even_rad / std::max(double(light.angle_rad), 1e-6) / std::max(1, faces));
         const double room = std::sqrt(memory_texels / double(std::max(1, faces))) / mapSize_px;
-        size_px = std::clamp(int(std::min(finer, room)), 1, mostTimes) * mapSize_px;
+        size_px = int(std::clamp(std::min(finer, room), 1.0, double(mostTimes)) * mapSize_px);
         if (size_px > mapSize_px) fit(light, surface, samples, scene, std::min(size_px, largest_px));
     }
     return std::min(size_px, largest_px);

@@ -10,6 +10,9 @@
 namespace penumbra::light_sampling {
 namespace {
 
+/// Fewer than that at a time are not worth the passes.
+constexpr int leastBatch = 16;
+
 constexpr const char* vertexShader = "src/techniques/common/depth_map.vert.glsl";
 constexpr const char* fragmentShader = "src/techniques/common/depth_map.frag.glsl";
 
@@ -40,7 +43,7 @@ SampleMaps::SampleMaps(Device& device)
 
 void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene& scene,
                          std::span<const LightSample> samples, const SampleCameras& cameras, int mapSize_px,
-                         int expectedSamples) {
+                         const Room& room) {
     if (mapSize_px > device_.maxTextureSize_px) {
         throw Error(Error::Kind::badArgument, "maps of " + std::to_string(mapSize_px) +
                                                   " texels squared are more than this device allows (" +
@@ -52,10 +55,12 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
     faces_ = cameras.faces;
     const int facesInMemory = std::max(1, faces_);
     const double map_bytes = texel_bytes * mapSize_px * mapSize_px;
-    const int mostLayers = int(std::clamp(std::floor(memory_bytes / map_bytes), double(facesInMemory),
+    const int mostLayers = int(std::clamp(std::floor(room.memory_bytes / map_bytes), double(facesInMemory),
                                           double(std::max(facesInMemory, device_.maxLayers))));
-    capacity_ = std::clamp(mostLayers / facesInMemory, 1, std::max(1, expectedSamples));
-    resident_ = capacity_ >= expectedSamples;
+    room_ = room;
+    capacity_ = std::clamp(mostLayers / facesInMemory, 1, std::max(1, room.samples));
+    if (room.staysWithin) room_.samples = capacity_;
+    resident_ = isWhole() || capacity_ >= room.compared + leastBatch;
     if (maps_.fit({.width_px = mapSize_px,
                    .height_px = mapSize_px,
                    .layers = capacity_ * facesInMemory,
@@ -108,12 +113,18 @@ void SampleMaps::plan(std::span<const int> sampleOfSlot, int first) {
     order_.write(std::as_bytes(std::span(identity_)));
 }
 
+int SampleMaps::batchesOfDeepest(int mostSlots) const {
+    if (isWhole()) return 1;
+    const int inBatch = resident_ ? capacity_ - room_.compared : capacity_;
+    return std::max(1, (mostSlots + inBatch - 1) / inBatch);
+}
+
 void SampleMaps::choose(int stage, int batch) {
     batch_.write({.stage = stage,
-                  .slotsBefore = batch * capacity_,
+                  .index = batch,
                   .capacity = capacity_,
                   .faces = faces_,
-                  .isResident = resident_});
+                  .isResident = resident_ && (stage != stageOfAll || isWhole())});
 }
 
 void SampleMaps::bindTo(gl::Pass& pass) const {

@@ -21,14 +21,22 @@ class SampleMaps {
   public:
     explicit SampleMaps(Device& device);
 
-    static constexpr double memory_bytes = 320.0 * 1024 * 1024, texel_bytes = 4;
+    static constexpr double texel_bytes = 4;
 
-    /// Takes this frame's samples, their cameras and the casters. `expectedSamples` maps are made room for at
-    /// once if the memory allows, else room for as many as it does. Throws Error::Kind::badArgument for maps
-    /// that are larger than the device allows.
+    /// What to make room for.
+    struct Room {
+        int samples = 1;           ///< with maps, at most
+        int compared = 1;          ///< of them, which are to stay while others come and go
+        double memory_bytes = 0;   ///< that maps may take
+        bool staysWithin = false;  ///< the caller takes no more samples than fit: see capacity()
+    };
+
+    /// Takes this frame's samples, their cameras and the casters. Makes room for all maps at once if the
+    /// memory allows, else for as many as it does. Throws Error::Kind::badArgument for maps that are larger
+    /// than the device allows.
     void prepare(std::span<const Caster> casters, const LightSpaceScene& scene,
                  std::span<const LightSample> samples, const SampleCameras& cameras, int mapSize_px,
-                 int expectedSamples);
+                 const Room& room);
 
     /// The plan from the CPU: slots hold these samples, in their order; stage 0 are those from `first` on.
     void plan(std::span<const int> sampleOfSlot, int first);
@@ -37,11 +45,15 @@ class SampleMaps {
     /// The same samples as those that were prepared, with other weights.
     void setSamples(std::span<const LightSample> samples) { samples_.write(std::as_bytes(samples)); }
 
-    /// Whether all maps stay where they are, so that later stages do not overwrite earlier ones.
+    /// Whether compared samples stay where they are, so that later stages do not overwrite them.
     bool isResident() const { return resident_; }
-    /// Slots in a batch.
+    /// Whether all do.
+    bool isWhole() const { return capacity_ >= room_.samples; }
+    /// Slots that have room at once.
     int capacity() const { return capacity_; }
     int batches(int mostSlots) const { return (mostSlots + capacity_ - 1) / capacity_; }
+    /// Of samples that are not compared: beside those that are, in what is left.
+    int batchesOfDeepest(int mostSlots) const;
 
     /// The same casters again, wherever the host keeps them now.
     void keep(std::span<const Caster> casters) { casters_ = casters; }
@@ -95,6 +107,7 @@ class SampleMaps {
     std::span<const Caster> casters_;
     int mapSize_px_ = 0;
     int faces_ = 0;
+    Room room_;
     int capacity_ = 1;
     bool resident_ = false;
     LightConstants light_{};

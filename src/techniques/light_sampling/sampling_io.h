@@ -42,15 +42,15 @@ struct CullBox {
 
 // A piece of the picture: a box around its receivers, in the axes of the maps (a cube's: the light's), as
 // orderedBits; low.x > high.x where it has none. The last of each: 4 rows of 8 quads of level 3, a bit each,
-// whose samples of level 4 are asked for.
+// whose samples of level 4 are asked for; of all receivers, a sum that changes with any of them.
 struct ReceiverTile {
     uvec4 low, high;
 };
 const int mostTiles = 4096;
 
-// Groups to dispatch where maps are kept from the last frame; x: 0 unless receivers have moved.
+// Groups to dispatch where the last frame's answer is kept; x: 0 unless receivers have moved.
 struct RedrawGroups {
-    uvec4 tiles, slots;
+    uvec4 tiles, slots, pixels;
 };
 
 // What a map has to show: the depth along its axis of the farthest receiver in each cell, as orderedBits; 0:
@@ -88,10 +88,10 @@ struct SamplingPlan {
 // Which slots of the plan a pass is about.
 SHARED_STRUCT BatchConstants {
     int stage;
-    int slotsBefore;    // this batch, of the stage
-    int capacity;       // slots in a batch
+    int index;          // of the batch in its stage
+    int capacity;       // slots that have room in all
     int faces;          // maps a slot
-    bool32 isResident;  // every slot has layers of its own; else batches share them
+    bool32 isResident;  // compared samples have layers of their own; else batches share all of them
 };
 
 // What sample_test.glsl needs.
@@ -120,6 +120,7 @@ SHARED_STRUCT GatherConstants {
 };
 
 SHARED_STRUCT ReceiverTilesConstants {
+    ivec2 size_px;  // of the picture
     int tile_px;
     float lightRadius;  // around the light's centre in metres; distant: its sine
     int slots;          // to draw again where receivers have moved
@@ -134,8 +135,6 @@ SHARED_STRUCT CompareConstants {
 SHARED_STRUCT EvaluateConstants {
     int firstSlot;  // of the batch, to sum
     int endSlot;
-    bool32 starts;  // the sum
-    bool32 ends;
     int taps;  // of the filter between samples, a power of two
 };
 
@@ -145,7 +144,7 @@ SHARED_STRUCT WeighConstants {
 
 #ifdef __cplusplus
 static_assert(sizeof(LightSample) == 80 && sizeof(LayerTap) == 32 && sizeof(CullBox) == 144);
-static_assert(sizeof(ReceiverTile) == 32 && sizeof(RedrawGroups) == 32 &&
+static_assert(sizeof(ReceiverTile) == 32 && sizeof(RedrawGroups) == 48 &&
               sizeof(LayerMask) == 16 + 4 * maskSide * maskSide);
 static_assert(sizeof(DrawCommand) == 20 && sizeof(SamplingPlan) == 176 && sizeof(SampleCamera) == 192);
 }  // namespace penumbra::light_sampling

@@ -17,14 +17,19 @@ float meanNearness(Comparison comparison, Lookup lookup) {
     return blocked > 0 ? sum / float(blocked) : 0.0;
 }
 
+// A tree that stops at 5 x 5 samples or fewer, as under narrow suns, has few points in all: there more of them are taken.
+const float largeCell = 0.19;  // a side, of the unit square's
+const int tapsOfLargeCell = 16;
+
 // Share of the sample's cell that the receiver sees, at the points of a Hammersley set.
 float cellLit(int vertex, Lookup lookup, float nearness) {
     LightSample light = samples[vertex];
+    int taps = light.normal.w > largeCell ? max(constants.taps, tapsOfLargeCell) : constants.taps;
     int layer = layerOf(subdivision.slotOfVertex[vertex]);
     float lit = 0.0, own = -1.0;
-    for (int i = 0; i < constants.taps; ++i) {
-        vec2 at = vec2(float(i) / float(constants.taps), float(bitfieldReverse(uint(i))) / 4294967296.0);
-        at += 0.5 / float(constants.taps) - 0.5;
+    for (int i = 0; i < taps; ++i) {
+        vec2 at = vec2(float(i) / float(taps), float(bitfieldReverse(uint(i))) / 4294967296.0);
+        at += 0.5 / float(taps) - 0.5;
         at = light.normal.w * at + vec2(light.spanU.w, light.spanV.w);
         vec3 step = at.x * light.spanU.xyz + at.y * light.spanV.xyz;
         float beside = besideSampleLit(layer, lookup, light.place.xyz, step, nearness);
@@ -35,5 +40,5 @@ float cellLit(int vertex, Lookup lookup, float nearness) {
         }
         lit += beside;
     }
-    return lit / float(constants.taps);
+    return lit / float(taps);
 }

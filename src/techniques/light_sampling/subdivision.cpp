@@ -32,7 +32,15 @@ int SubdivisionOptions::mostSlots(int round) const {
                     round == 0 ? latticeSize(depth) : latticeSize(depth) - latticeSize(depth - 1));
 }
 
+int SubdivisionOptions::mostCompared() const {
+    return maxDepth == 0 ? 0 : latticeSize(maxDepth - 1);
+}
+
 int SubdivisionOptions::mostSlotsInAll() const {
+    // Where the samples do not suffice for a single split all trees are the same.
+    constexpr int newOfFirstSplit = 5;
+    if (rounds() == 0 || latticeSize(baseDepth()) + newOfFirstSplit > maxSamples)
+        return std::min(maxSamples, latticeSize(baseDepth()));
     return std::min(latticeVertices, maxSamples + std::min(maxSamples, latticeSize(deepestLevel - 1)));
 }
 
@@ -85,7 +93,8 @@ void SubdivisionPasses::decide(const SampleMaps& maps, int round, const Subdivis
 
 void SubdivisionPasses::compare(const ShadowInputs& inputs, const ViewBinding& view,
                                 const SampleCameras& cameras, SampleMaps& maps,
-                                const SubdivisionOptions& options, int stage, int batch) {
+                                const SubdivisionOptions& options, int stage, int batch,
+                                const gl::Buffer* redraw) {
     maps.choose(stage, batch);
     gl::Pass pass(compare_.prepare(inputs.light, cameras, {}, {}));
     pass.constants(CompareConstants{.target_px = {bits_.width_px(), bits_.height_px()},
@@ -95,8 +104,8 @@ void SubdivisionPasses::compare(const ShadowInputs& inputs, const ViewBinding& v
         .bind(maps)
         .bind(compare_)
         .bind("shadowBits", bits_);
-    if (stage == stageOfCoarse) {
-        pass.dispatchPixels(bits_.width_px(), bits_.height_px());
+    if (redraw != nullptr) {
+        pass.dispatchIndirect(*redraw, offsetof(RedrawGroups, pixels));
     } else {
         pass.dispatchIndirect(maps.plan(), offsetof(SamplingPlan, compareGroups));
     }

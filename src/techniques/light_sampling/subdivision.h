@@ -27,6 +27,8 @@ struct SubdivisionOptions {
     int rounds() const { return maxDepth - baseDepth(); }
     /// The most slots that a round can add; that of rounds() are those that are not compared.
     int mostSlots(int round) const;
+    /// Samples that may be compared: all but those of the deepest level.
+    int mostCompared() const;
     /// Slots for a tree, and for the vertices of the last frame's that it may turn out not to have.
     int mostSlotsInAll() const;
 
@@ -45,9 +47,10 @@ class SubdivisionPasses {
     void start(const SampleMaps& maps, const SubdivisionOptions& options, bool isCoherent);
 
     /// Adds the shadow values of a batch's samples (its maps must be drawn). Does nothing for a round without
-    /// samples; the stage of all that is compared is compared always.
+    /// samples; the stage of all that is compared is compared as `redraw` (RedrawGroups) says.
     void compare(const ShadowInputs& inputs, const ViewBinding& view, const SampleCameras& cameras,
-                 SampleMaps& maps, const SubdivisionOptions& options, int stage, int batch);
+                 SampleMaps& maps, const SubdivisionOptions& options, int stage, int batch,
+                 const gl::Buffer* redraw);
 
     /// Tests the quads that are known, and splits those that fail: the plan's stage `round` + 1 are the new
     /// samples to compare, that of the deepest those that are not compared.

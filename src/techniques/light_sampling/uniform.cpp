@@ -2,6 +2,11 @@
 #include "src/techniques/light_sampling/uniform.h"
 
 namespace penumbra::light_sampling {
+namespace {
+
+constexpr double memory_bytes = 320.0 * 1024 * 1024;  // of all 289 maps of 512 x 512, and some
+
+}  // namespace
 
 UniformLightSampling::UniformLightSampling(Device& device)
     : maps_(device), evaluation_(device), radiance_(device) {}
@@ -41,8 +46,9 @@ void UniformLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& 
     choose(surface);
     const int count = int(samples_.size());
     const int mapSize_px = cameras_.fitMaps(inputs.light, surface, samples_, scene, mapSize_px_,
-                                            SampleMaps::memory_bytes / (count * SampleMaps::texel_bytes));
-    maps_.prepare(inputs.casters, scene, samples_, cameras_, mapSize_px, count);
+                                            memory_bytes / (count * SampleMaps::texel_bytes));
+    maps_.prepare(inputs.casters, scene, samples_, cameras_, mapSize_px,
+                  {.samples = count, .compared = count, .memory_bytes = memory_bytes});
     maps_.planAll();
     if (inputs.light.radianceTexture != 0) {
         const auto pass = timers_.pass("uniform/weights");
@@ -58,12 +64,10 @@ void UniformLightSampling::render(const ShadowInputs& inputs, VisibilityBuffer& 
         }
         {
             const auto pass = timers_.pass("uniform/evaluation");
-            evaluation_.add(inputs, view_, cameras_, evaluationOptions_, maps_,
-                            {.batch = batch,
-                             .mostSlots = std::min(maps_.capacity(), count),
-                             .starts = batch == 0,
-                             .ends = batch == batches_ - 1},
-                            out);
+            evaluation_.add(
+                inputs, view_, cameras_, evaluationOptions_, maps_,
+                {.batch = batch, .mostSlots = std::min(maps_.capacity(), count), .isOnlyOne = batches_ == 1},
+                out);
         }
     }
 }
