@@ -20,7 +20,8 @@ uniform sampler2D radiance;
 uniform writeonly image2D visibility;
 
 const float largestK = 1e4;
-const int mostRounds = 8;
+// Always all of them: after a loop that some invocations leave early, llvmpipe of Mesa 25.0 ran what follows for none.
+const int mostRounds = 4;
 const int mostSearches = 8;
 const float rounding = 1.01;  // what bounds of k may be short of
 
@@ -126,10 +127,8 @@ float largestKOfBlockers(int camera, LightFrame face, LightFrame lightFrame) {
         }
         float largest = orthographic ? face.pos.z + closest : face.distance_m * closest - 1.0;
         // A blocker nearer to the receiver than the tolerance is none.
-        if (largest < 0.5 * toleranceTexels * lightCameras[camera].depth.texelSize) return 0.0;
-        bool isSettled = largest > 0.75 * k;
-        k = min(k, largest);
-        if (isSettled) break;
+        bool isNone = largest < 0.5 * toleranceTexels * lightCameras[camera].depth.texelSize;
+        k = k == 0.0 || isNone ? 0.0 : min(k, largest);
     }
     return k;
 }
