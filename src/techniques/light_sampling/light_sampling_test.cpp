@@ -2,6 +2,7 @@
 #include "src/techniques/light_sampling/light_sampling_test.h"
 
 #include <filesystem>
+#include <optional>
 
 #include "src/device/device_internals.h"
 #include "studio/scene/open_scene.h"
@@ -227,10 +228,10 @@ TEST_F(LightSamplingTest, BoundOfTheErrorIsKeptAndHolds) {
 
 TEST_F(LightSamplingTest, ANarrowSunNeitherLeaksNorLeavesTheFeet) {
     // Posts under a low sun, where 14 % leaked of one map for all of the ground.
-    const std::filesystem::path field = "../shared/scenes/field";
-    if (!std::filesystem::exists(field)) GTEST_SKIP() << field << " is not here";
+    const std::optional<std::filesystem::path> field = fieldScenes();
+    if (!field) GTEST_SKIP() << "no scenes of the field here";
     for (const char* name : {"lowsun-e5", "lowsun-e1"}) {
-        const Scene scene = openScene((field / name).string() + ".glb");
+        const Scene scene = openScene((*field / name).string() + ".glb");
         const VisibilityMetrics metrics =
             judge(truth(scene, {160, 90}), render("adaptive", scene, {160, 90}));
         EXPECT_LE(metrics.leak, 0.005) << name;
@@ -241,10 +242,10 @@ TEST_F(LightSamplingTest, ANarrowSunNeitherLeaksNorLeavesTheFeet) {
 
 TEST_F(LightSamplingTest, RoomsAroundTheLightHaveNoSteps) {
     // Their maps are a cube's, between which nothing filters: nine samples made an error of 0.13.
-    const std::filesystem::path field = "../shared/scenes/field";
-    if (!std::filesystem::exists(field)) GTEST_SKIP() << field << " is not here";
+    const std::optional<std::filesystem::path> field = fieldScenes();
+    if (!field) GTEST_SKIP() << "no scenes of the field here";
     for (const char* name : {"room-0", "pcss-wall-2.5", "ceiling-h27"}) {
-        const Scene scene = openScene((field / name).string() + ".glb");
+        const Scene scene = openScene((*field / name).string() + ".glb");
         const VisibilityMetrics metrics =
             judge(truth(scene, {160, 90}), render("adaptive", scene, {160, 90}));
         EXPECT_LE(metrics.penumbra_rmse, 0.05) << name;
