@@ -8,6 +8,7 @@ uniform writeonly image2D visibility;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, imageSize(visibility)))) return;
+    // Not the image's size: it may be a part of the host's texture.
+    if (any(greaterThanEqual(pixel, textureSize(kept, 0)))) return;
     imageStore(visibility, pixel, texelFetch(kept, pixel, 0));
 }
