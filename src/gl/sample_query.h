@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "src/gl/gl.h"
 #include "src/gl/pass_timers.h"
 
@@ -19,7 +21,7 @@ class SampleQuery {
     void begin() { glBeginQuery(GL_SAMPLES_PASSED, query_.name()); }
     void end() { glEndQuery(GL_SAMPLES_PASSED); }
     /// Waits for the device.
-    GLuint64 passed() const {
+    std::uint64_t passed() const {
         GLuint64 samples = 0;
         glGetQueryObjectui64v(query_.name(), GL_QUERY_RESULT, &samples);
         return samples;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "src/techniques/light_sampling/published_io.h"
 
@@ -105,18 +106,18 @@ void PublishedSampling::subdivide(const Frame& frame, const Options& options) {
             const auto pass = frame.timers.pass(comparisonPasses[std::size_t(level)]);
             for (std::size_t i = 0; i < cells.size(); ++i) count(frame, options, cells[i], queries_[i]);
         }
-        std::vector<std::pair<GLuint64, Cell>> failing;
+        std::vector<std::pair<std::uint64_t, Cell>> failing;
         for (std::size_t i = 0; i < cells.size(); ++i) {
-            const GLuint64 fragments = queries_[i].passed();
+            const std::uint64_t fragments = queries_[i].passed();
             counts_.failing[std::size_t(level)] += double(fragments);
-            if (level < options.minDepth || fragments > GLuint64(options.tolerated)) {
+            if (level < options.minDepth || fragments > std::uint64_t(options.tolerated)) {
                 failing.emplace_back(fragments, cells[i]);
             } else {
                 leaves_.push_back(cells[i]);
             }
         }
         // Section 3.3.4. If samples run out, they went where most fragments fail.
-        std::ranges::stable_sort(failing, std::greater{}, &std::pair<GLuint64, Cell>::first);
+        std::ranges::stable_sort(failing, std::greater{}, &std::pair<std::uint64_t, Cell>::first);
         finer.clear();
         for (const auto& [fragments, cell] : failing) {
             if (!split(cell, finer)) continue;

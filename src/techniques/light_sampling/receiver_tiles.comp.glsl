@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
-// Where the picture's receivers are, tile by tile: what maps have to show, and whether anything has moved. A group a tile. Variants of sample_test.glsl,
-// and BITS: only receivers that ask for samples that were not compared, and in which quads of level 3 these lie.
+// Where the picture's receivers are, tile by tile: what maps have to show, and whether anything has moved. A group a
+// tile. Variants of sample_test.glsl, and BITS: only receivers that ask for samples that were not compared, and in which
+// quads of level 3 these lie.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 // What seems to lie on the horizon here may lie on either side of it in the evaluation's own arithmetic: it counts as
@@ -36,7 +37,6 @@ bool isAllAboveHorizon(Receiver receiver) {
 #else
 layout(std430) buffer RedrawBlock { RedrawGroups redraw; };
 #endif
-
 
 shared uint low[3], high[3], quads[2];
 
