@@ -120,7 +120,9 @@ void LatticeShares::set(bool hasCorners) {
     cells_.clear();
     for (const PatternPoint& cell : makePattern(SamplePattern::cells, perSide, 0, false))
         cells_.emplace_back(glm::vec2(cell.cellMin), glm::vec2(cell.cellMax));
-    const std::vector<LightSample> shares(cells_.size(), {.weight = glm::vec4(1.0f / float(cells_.size()))});
+    LightSample share{};
+    setShare(share, 1.0f / float(cells_.size()));
+    const std::vector<LightSample> shares(cells_.size(), share);
     shares_ = gl::Buffer(std::as_bytes(std::span(shares)), "light sampling cell shares");
 }
 

@@ -63,7 +63,7 @@ void main() {
     int baseLayer = layerOf(firstSlot());
     int layers = constants.isKept && redraw.slots.x == 0u ? 0 : slotCount() * batch.faces;
     bool isClear = caster == constants.casterCount;
-    int indices = isClear ? 6 : int(boxes[caster].draw.x);
+    int indices = isClear ? 6 : int(boxes[caster].indexCount);
     int firstInstance = caster * constants.layersInAll;
     if (gl_LocalInvocationIndex == 0u) listed = 0;
     barrier();

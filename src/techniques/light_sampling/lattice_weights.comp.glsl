@@ -8,7 +8,7 @@ layout(local_size_x = 320) in;
 
 layout(std430) buffer SubdivisionBlock { Subdivision subdivision; };
 layout(std430) buffer Samples { LightSample samples[]; };
-// A textured light's radiance over cells of the square, in `weight.rgb`: a quarter of what each vertex stands for at most.
+// A textured light's radiance over cells of the square, in `radianceShare`: a quarter of what each vertex stands for at most.
 layout(std430) readonly buffer Cells { LightSample cells[]; };
 #include "src/techniques/light_sampling/subdivision.glsl"
 
@@ -22,14 +22,15 @@ shared bool isUsed[latticeVertices];
 vec3 radianceOf(ivec2 low, ivec2 high) {
     vec3 sum = vec3(0.0);
     for (int y = low.y; y < high.y; ++y) {
-        for (int x = low.x; x < high.x; ++x) sum += cells[y * constants.cellsPerSide + x].weight.rgb;
+        for (int x = low.x; x < high.x; ++x) sum += cells[y * constants.cellsPerSide + x].radianceShare;
     }
     return sum;
 }
 
 // What a sample stands for.
 struct Cell {
-    vec4 weight;  // rgb: radiance; a: area; 0 where the tree has no vertex
+    vec3 radianceShare;
+    float areaShare;  // 0 where the tree has no vertex
     vec2 middle;  // from the sample, in units of the square's sides
 };
 
@@ -72,7 +73,7 @@ Cell cellOf(int vertex) {
         radiance *= paper / area;
         area = paper;
     }
-    return Cell(vec4(radiance, area), middle);
+    return Cell(radiance, area, middle);
 }
 
 // Bit x: the quad whose left edge is column x of the 9 x 9 coarse vertices is a leaf.
@@ -89,11 +90,12 @@ void main() {
     int vertex = int(gl_LocalInvocationIndex);
     if (vertex < latticeVertices) {
         Cell cell = cellOf(vertex);
-        samples[vertex].weight = cell.weight;
-        samples[vertex].normal.w = sqrt(cell.weight.a);
-        samples[vertex].spanU.w = cell.middle.x;
-        samples[vertex].spanV.w = cell.middle.y;
-        isUsed[vertex] = cell.weight.a > 0.0;
+        samples[vertex].radianceShare = cell.radianceShare;
+        samples[vertex].areaShare = cell.areaShare;
+        samples[vertex].cellSide = sqrt(cell.areaShare);
+        samples[vertex].cellMiddleU = cell.middle.x;
+        samples[vertex].cellMiddleV = cell.middle.y;
+        isUsed[vertex] = cell.areaShare > 0.0;
     }
     if (vertex < 15) subdivision.leafRows[vertex] = leafRow(vertex);
     barrier();

@@ -37,6 +37,15 @@ double sphereShare(double t, double b) {
     return 1 - std::cos(b) + 0.5 * (0.5 * (std::cos(b) - std::cos(2 * t - b)) + (t - b) * std::sin(b));
 }
 
+/// It stands for all of the light.
+LightSample sampleAt(const glm::dvec3& place) {
+    LightSample sample{};
+    sample.place = glm::vec3(place);
+    sample.perDensity = 1;
+    setShare(sample, 1);
+    return sample;
+}
+
 }  // namespace
 
 LightSurface::LightSurface(const AreaLight& light, const LightSpaceScene& scene) : light_(light) {
@@ -73,10 +82,13 @@ LightSurface::LightSurface(const AreaLight& light, const LightSpaceScene& scene)
     coneHalfAngle_rad_ = narrowest < 0.3 ? pi : std::acos(std::min(narrowest, 1.0));
 }
 
+void setShare(LightSample& sample, float share) {
+    sample.radianceShare = glm::vec3(share);
+    sample.areaShare = share;
+}
+
 LightSample LightSurface::sample(const glm::dvec2& square) const {
-    const auto flat = [](const glm::dvec3& place) {
-        return LightSample{glm::vec4(glm::vec3(place), 1), glm::vec4(0), glm::vec4(1), {}, {}};
-    };
+    const auto flat = [](const glm::dvec3& place) { return sampleAt(place); };
     switch (light_.shape) {
         case LightShape::rect:
             return flat({(square.x - 0.5) * light_.width_m, (square.y - 0.5) * light_.height_m, 0});
@@ -99,8 +111,8 @@ LightSample LightSurface::sampleWithSpans(const glm::dvec2& square, double cellS
     const auto span = [&](const glm::dvec2& step) {
         return (sample(square + step).place - sample(square - step).place) / float(cellSide);
     };
-    middle.spanU = glm::vec4(glm::vec3(span({0.5 * cellSide, 0})), 0);
-    middle.spanV = glm::vec4(glm::vec3(span({0, 0.5 * cellSide})), 0);
+    middle.spanU = span({0.5 * cellSide, 0});
+    middle.spanV = span({0, 0.5 * cellSide});
     return middle;
 }
 
@@ -119,11 +131,10 @@ LightSample LightSurface::spherePoint(const glm::dvec2& disk) const {
     const double density = std::cos(std::max(0.0, t - coneHalfAngle_rad_));
     const glm::dvec2 around = radius > 0 ? glm::normalize(disk) : glm::dvec2(1, 0);
     const glm::dvec3 normal = std::cos(t) * axis_ + std::sin(t) * (around.x * across_ + around.y * along_);
-    return {glm::vec4(glm::vec3(double(light_.radius_m) * normal), 1 / std::max(density, 1e-3)),
-            glm::vec4(glm::vec3(normal), 0),
-            glm::vec4(1),
-            {},
-            {}};
+    LightSample sample = sampleAt(double(light_.radius_m) * normal);
+    sample.perDensity = float(1 / std::max(density, 1e-3));
+    sample.outward = glm::vec3(normal);
+    return sample;
 }
 
 InlineVector<glm::dvec3, 8> LightSurface::bounds() const {
@@ -217,11 +228,7 @@ std::vector<LightSample> ballSamples(double radius_m, int perSide) {
         const double height = heightAt((z + 0.5) / perSide);
         for (const PatternPoint& point : makePattern(SamplePattern::cells, perSide, 0, false)) {
             const glm::dvec2 disk = std::sqrt(1 - height * height) * diskFromSquare(point.square);
-            samples.push_back({.place = glm::vec4(glm::vec3(radius_m * glm::dvec3(disk, height)), 1),
-                               .normal = glm::vec4(0),
-                               .weight = glm::vec4(1),
-                               .spanU = {},
-                               .spanV = {}});
+            samples.push_back(sampleAt(radius_m * glm::dvec3(disk, height)));
         }
     }
     return samples;

@@ -13,6 +13,9 @@
 
 namespace penumbra::light_sampling {
 
+/// What a sample stands for where the light has no picture: as much of its emission as of its area.
+void setShare(LightSample& sample, float share);
+
 /// Rect: as it is. Disk: the concentric map of Shirley and Chiu 1997. Distant: the same, lifted to the cap of
 /// directions so that areas are solid angles. Sphere: see `spherePoint`.
 class LightSurface {

@@ -47,9 +47,9 @@ float reachInMap(LightSample light, SampleCamera camera, bool isOrthographic, fl
     float most = 0.0;
     for (int i = 0; i < 4; ++i) {
         vec2 at = needs.reach * vec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1);
-        vec3 along = at.x * light.spanU.xyz + at.y * light.spanV.xyz;
+        vec3 along = at.x * light.spanU + at.y * light.spanV;
         if (isOrthographic) {
-            vec3 beside = mat3(needs.face0FromLight) * (light.place.xyz + along);
+            vec3 beside = mat3(needs.face0FromLight) * (light.place + along);
             if (beside.z > -0.02) return beyond;
             float slope = length(beside.xy / beside.z - camera.tap.origin.xy);
             most = max(most, slope * max(farthest_m - needs.nearestBlocker_m, 0.0));

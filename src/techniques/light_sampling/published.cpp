@@ -221,7 +221,7 @@ void PublishedSampling::weigh(const Frame& frame, const Options& options) {
         const auto at = std::size_t(vertex);
         const double weight =
             options.usesPaperWeights ? std::pow((1 << depth[at]) + 1, -dimensions_) : area[at];
-        frame.samples[at].weight = glm::vec4(float(weight));
+        setShare(frame.samples[at], float(weight));
         // Of a textured light's radiance: as much as lies nearest to the sample among those of its depth.
         const glm::vec2 place((glm::vec2(vertex % side_, vertex / side_ % side_) + float(margin)) /
                               float(extent));

@@ -76,7 +76,7 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
         CullBox& box = boxes_.emplace_back();
         const bool draws = casters[i].casts && !std::isnan(corners[0].x);
         for (std::size_t j = 0; draws && j < 8; ++j) box.corners[j] = glm::vec4(glm::vec3(corners[j]), 1);
-        box.draw = {draws ? glm::uint(casters[i].mesh->indices().size()) : 0u, 0, 0, 0};
+        box.indexCount = draws ? glm::uint(casters[i].mesh->indices().size()) : 0u;
         const AlphaMask& mask = casters[i].alphaMask;
         constants_.push_back({.lightFromMesh = scene.lightFromMesh[i],
                               .alphaFactor = mask.factor,
@@ -228,7 +228,7 @@ void SampleMaps::drawCasters(bool haveHoles, CommandOf command_bytes) const {
     for (std::size_t i = 0; i < casters_.size(); ++i) {
         const Mesh& mesh = *casters_[i].mesh;
         const GLuint alphaTexture = casters_[i].alphaMask.texture;
-        if (boxes_[i].draw.x == 0 || (alphaTexture != 0) != haveHoles) continue;
+        if (boxes_[i].indexCount == 0 || (alphaTexture != 0) != haveHoles) continue;
         pass.vertices("posMesh", {.buffer = mesh.positionBuffer()}).indices(mesh.indexBuffer());
         if (haveHoles) {
             pass.vertices("uvMesh", {.buffer = mesh.uvBuffer()});

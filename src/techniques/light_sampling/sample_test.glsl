@@ -39,21 +39,21 @@ bool isBehindLight(Receiver receiver) { return isOutsideEmission(receiver.posLig
 // surface that the sample stands for; from inside, its back counts. With irradiance, both cosines and 1 / d^2.
 float countOf(LightSample light, Receiver receiver) {
 #ifdef DISTANT
-    float cosine = dot(receiver.normalLight, light.place.xyz);
+    float cosine = dot(receiver.normalLight, light.place);
     return cosine > LEAST_HEIGHT ? (sampling.isWeightedByIrradiance ? cosine : 1.0) : 0.0;
 #else
-    vec3 toSample = light.place.xyz - receiver.posLight;
+    vec3 toSample = light.place - receiver.posLight;
     float above = dot(receiver.normalLight, toSample);
     float distance2 = dot(toSample, toSample);
     if (!(above > LEAST_HEIGHT * sqrt(distance2))) return 0.0;
 #ifdef SPHERE
     // Relative to the sphere as seen from its centre's distance; the floor leaves something to compare where none of a
     // few samples faces the receiver.
-    float radius2 = dot(light.place.xyz, light.place.xyz);
+    float radius2 = dot(light.place, light.place);
     float center2 = dot(receiver.posLight, receiver.posLight);
-    float cosine = -dot(light.normal.xyz, toSample) * inversesqrt(distance2);
+    float cosine = -dot(light.outward, toSample) * inversesqrt(distance2);
     if (center2 < radius2) cosine = abs(cosine);
-    float count = max(cosine, 0.0) * light.place.w * center2 / distance2 + 1e-4;
+    float count = max(cosine, 0.0) * light.perDensity * center2 / distance2 + 1e-4;
     return sampling.isWeightedByIrradiance ? count * above * inversesqrt(distance2) : count;
 #elif defined(VOLUME)
     // A piece of the volume shines alike in all directions: 1 / d^2, relative to the centre's.

@@ -10,16 +10,18 @@
 namespace penumbra::light_sampling {
 #endif
 
-// A point of the light.
-struct LightSample {
-    vec4
-        place;  // xyz: position in light space, or the unit direction towards a distant light; w: 1 / density
-    vec4 normal;  // xyz: sphere: outward; w: side of its cell, a part of the unit square that is laid over
-                  // the light
-    vec4 weight;  // rgb: share of the light's emission; a: share of its area
-    vec4 spanU;   // xyz: how `place` moves along the unit square's sides; w: from the sample to its cell's
-                  // middle
-    vec4 spanV;
+// A point of the light, and its cell: the part of the unit square, laid over the light, that it stands for.
+SHARED_STRUCT LightSample {
+    vec3 place;  // in light space, or the unit direction towards a distant light
+    float perDensity;
+    vec3 outward;        // of a sphere
+    float cellSide;      // in sides of the unit square
+    vec3 radianceShare;  // of the light's emission
+    float areaShare;     // of the light's area
+    vec3 spanU;          // how `place` moves along the unit square's sides
+    float cellMiddleU;   // from the sample to its cell's middle, in sides of the unit square
+    vec3 spanV;
+    float cellMiddleV;
 };
 
 // A layer's map, as a receiver is looked up in it. All samples share the axes of their maps.
@@ -35,9 +37,9 @@ SHARED_STRUCT SampleCamera {
 };
 
 // A caster for the device to cull.
-struct CullBox {
+SHARED_STRUCT CullBox {
     vec4 corners[8];  // light space; w: 1
-    uvec4 draw;       // x: number of indices, 0 where it casts nothing
+    uint indexCount;  // 0 where it casts nothing
 };
 
 // A piece of the picture: a box around its receivers, in the axes of the maps (a cube's: the light's), as

@@ -24,15 +24,15 @@ const int tapsOfLargeCell = 16;
 // Share of the sample's cell that the receiver sees, at the points of a Hammersley set.
 float cellLit(int vertex, Lookup lookup, float nearness) {
     LightSample light = samples[vertex];
-    int taps = light.normal.w > largeCell ? max(constants.taps, tapsOfLargeCell) : constants.taps;
+    int taps = light.cellSide > largeCell ? max(constants.taps, tapsOfLargeCell) : constants.taps;
     int layer = layerOf(subdivision.slotOfVertex[vertex]);
     float lit = 0.0, own = -1.0;
     for (int i = 0; i < taps; ++i) {
         vec2 at = vec2(float(i) / float(taps), float(bitfieldReverse(uint(i))) / 4294967296.0);
         at += 0.5 / float(taps) - 0.5;
-        at = light.normal.w * at + vec2(light.spanU.w, light.spanV.w);
-        vec3 step = at.x * light.spanU.xyz + at.y * light.spanV.xyz;
-        float beside = besideSampleLit(layer, lookup, light.place.xyz, step, nearness);
+        at = light.cellSide * at + vec2(light.cellMiddleU, light.cellMiddleV);
+        vec3 step = at.x * light.spanU + at.y * light.spanV;
+        float beside = besideSampleLit(layer, lookup, light.place, step, nearness);
         if (beside < 0.0) {
             // Blockers close to the light make kernels larger than the map: there the sample's own point has to do.
             if (own < 0.0) own = sampleLit(layer, lookup);

@@ -34,7 +34,7 @@ void UniformLightSampling::choose(const LightSurface& surface) {
     const int perSide = surface.isPoint() ? 1 : perSide_;
     for (const PatternPoint& point : makePattern(SamplePattern(pattern_), perSide, seed_, weights_ == 1)) {
         LightSample& sample = samples_.emplace_back(surface.sample(point.square));
-        sample.weight = glm::vec4(float(point.weight));
+        setShare(sample, float(point.weight));
         cells_.emplace_back(glm::vec2(point.cellMin), glm::vec2(point.cellMax));
     }
 }

@@ -40,5 +40,5 @@ void main() {
             sum += radianceAt(cell.xy + extent * (vec2(x, y) + 0.5) / vec2(taps), size_px);
         }
     }
-    samples[i].weight.rgb = sum / float(taps.x * taps.y) * samples[i].weight.a;
+    samples[i].radianceShare = sum / float(taps.x * taps.y) * samples[i].areaShare;
 }

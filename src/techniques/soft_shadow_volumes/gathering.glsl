@@ -35,9 +35,9 @@ void putGathered() {
 }
 
 // From the end that comes first, so that an edge is asked the same question as the sides of its faces are.
-void gatherEdge(vec4 a, vec4 b, vec4 planes[2]) {
-    if (isBefore(a.xyz, b.xyz)) gather(LightEdge(a, b, planes));
-    else gather(LightEdge(b, a, vec4[2](-planes[0], -planes[1])));
+void gatherEdge(vec3 a, vec3 b, float cutSide, vec4 planes[2]) {
+    if (isBefore(a, b)) gather(LightEdge(a, cutSide, b, false, planes));
+    else gather(LightEdge(b, cutSide, a, false, vec4[2](-planes[0], -planes[1])));
 }
 
 // Where an edge whose ends lie on different sides meets the plane of a flat light. The same, to the last bit, for all

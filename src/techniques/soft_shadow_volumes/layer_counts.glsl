@@ -56,7 +56,7 @@ int changeBeyond(LightFrame frame, Receiver receiver, LightEdge edge, SeenEdge s
 
 // False where it hides nothing from the receiver: of the edges that matter to a tile, few do to each of its receivers.
 bool hidesLight(LightFrame frame, Receiver receiver, LightEdge edge, out SeenEdge seen) {
-    return seeEdge(frame, receiver.posLight, edge.aLight, edge.bLight, seen) &&
+    return seeEdge(frame, receiver.posLight, edge.aLight, edge.bLight, edge.cutSide, seen) &&
            changeBeyond(frame, receiver, edge, seen) != 0;
 }
 
@@ -116,7 +116,7 @@ struct SeenFace {
 
 SeenFace seeFace(LightFrame frame, vec3 posLight, LightEdge record) {
     mat3 unitFromLight = transpose(mat3(frame.x, frame.y, frame.z));
-    vec3 a = unitFromLight * (record.aLight.xyz - posLight), b = unitFromLight * (record.bLight.xyz - posLight),
+    vec3 a = unitFromLight * (record.aLight - posLight), b = unitFromLight * (record.bLight - posLight),
          c = unitFromLight * (record.planes[0].xyz - posLight);
     // The rows of unitFromLight are at right angles to each other.
     vec3 lengths2 = 1.0 / vec3(dot(frame.x, frame.x), dot(frame.y, frame.y), dot(frame.z, frame.z));
@@ -148,8 +148,8 @@ bool isInFace(SeenFace face, vec2 s) {
 // which the cone from the receiver touches the sphere, where nothing is before the sphere's near side.
 bool mayHide(LightFrame frame, Receiver receiver, LightEdge record) {
     mat3 unitFromLight = transpose(mat3(frame.x, frame.y, frame.z));
-    vec3 a = unitFromLight * (record.aLight.xyz - receiver.posLight),
-         b = unitFromLight * (record.bLight.xyz - receiver.posLight),
+    vec3 a = unitFromLight * (record.aLight - receiver.posLight),
+         b = unitFromLight * (record.bLight - receiver.posLight),
          c = unitFromLight * (record.planes[0].xyz - receiver.posLight);
     const float margin = 1.001;
     vec3 x = vec3(a.x, b.x, c.x), y = vec3(a.y, b.y, c.y), z = vec3(a.z, b.z, c.z), beside = margin * z;

@@ -25,12 +25,12 @@ struct SeenEdge {
     bool hasLeft;   // the light's centre is on the plane's positive side
 };
 
-// False where it is behind the receiver, behind the light or off to one side of it. w: as of LightEdge.
-bool seeEdge(LightFrame frame, vec3 receiverLight, vec4 aLight, vec4 bLight, out SeenEdge seen) {
-    vec3 a = unitPlace(frame, receiverLight, aLight.xyz), b = unitPlace(frame, receiverLight, bLight.xyz);
+// False where it is behind the receiver, behind the light or off to one side of it. `cutSide`: of LightEdge.
+bool seeEdge(LightFrame frame, vec3 receiverLight, vec3 aLight, vec3 bLight, float cutSide, out SeenEdge seen) {
+    vec3 a = unitPlace(frame, receiverLight, aLight), b = unitPlace(frame, receiverLight, bLight);
     float turn = turnAround(a, b);
     seen = SeenEdge(a, b, vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, turn), turn >= 0.0);
-    bool isBehind = aLight.w == 0.0 ? min(a.z, b.z) >= 1.0 : aLight.w * receiverLight.z < 0.0;
+    bool isBehind = cutSide == 0.0 ? min(a.z, b.z) >= 1.0 : cutSide * receiverLight.z < 0.0;
     bool isBeside = (a.x > a.z && b.x > b.z) || (a.x < -a.z && b.x < -b.z) || (a.y > a.z && b.y > b.z) ||
                     (a.y < -a.z && b.y < -b.z);
     return max(a.z, b.z) > 0.0 && (frame.isEndless || !isBehind) && !isBeside;

@@ -16,9 +16,9 @@ void main() {
     vec3 low = vec3(3e38), high = vec3(-3e38);
     for (uint i = 32u * word; i < min(32u * word + 32u, eye.edgeCount); ++i) {
         LightEdge edge = lightEdges[i];
-        vec3 third = edge.aLight.w == wholeFace ? edge.planes[0].xyz : edge.aLight.xyz;
-        low = min(low, min(third, min(edge.aLight.xyz, edge.bLight.xyz)));
-        high = max(high, max(third, max(edge.aLight.xyz, edge.bLight.xyz)));
+        vec3 third = edge.isFace ? edge.planes[0].xyz : edge.aLight;
+        low = min(low, min(third, min(edge.aLight, edge.bLight)));
+        high = max(high, max(third, max(edge.aLight, edge.bLight)));
     }
     wordBoxes[word] = TriangleCluster(vec4(low, 0.0), vec4(high, 0.0));
 }

@@ -30,7 +30,7 @@ void gatherCut(vec3 corners[3], vec4 plane, float side) {
     // Beside the light?
     vec2 low = min(from.xy, to.xy), high = max(from.xy, to.xy), size = volume.light.halfSize;
     if (any(greaterThan(low, size)) || any(lessThan(high, -size))) return;
-    gatherEdge(vec4(from, side), vec4(to, side), vec4[2](plane, vec4(0.0)));
+    gatherEdge(from, to, side, vec4[2](plane, vec4(0.0)));
 }
 
 void gatherCuts() {
@@ -43,8 +43,7 @@ void gatherCuts() {
     vec4 plane = facePlane(2u * triangle);
     if (volume.light.shape == shapeSphere) {
         if (mayReachIntoSphere(2u * triangle))
-            gather(LightEdge(vec4(corners[0], wholeFace), vec4(corners[1], wholeFace),
-                             vec4[2](vec4(corners[2], 0.0), plane)));
+            gather(LightEdge(corners[0], 0.0, corners[1], true, vec4[2](vec4(corners[2], 0.0), plane)));
         return;
     }
     if (isInLightPlane(2u * triangle)) return;

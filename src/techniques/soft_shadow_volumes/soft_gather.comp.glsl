@@ -27,7 +27,7 @@ void gatherSide(vec3 a, vec3 b, vec4 planes[2], float side) {
     bool hasA = side * a.z > 0.0, hasB = side * b.z > 0.0;
     if (!hasA && !hasB) return;
     vec3 from = hasA ? a : cutPoint(a, b), to = hasB ? b : cutPoint(a, b);
-    gatherEdge(vec4(from, 0.0), vec4(to, 0.0), planes);
+    gatherEdge(from, to, 0.0, planes);
 }
 
 void gatherEdges() {
@@ -55,7 +55,7 @@ void gatherEdges() {
             gatherSide(a, b, planes, -1.0);
             if (!isOneSided) gatherSide(a, b, planes, 1.0);
         } else {
-            gatherEdge(vec4(a, 0.0), vec4(b, 0.0), planes);
+            gatherEdge(a, b, 0.0, planes);
         }
     }
 }

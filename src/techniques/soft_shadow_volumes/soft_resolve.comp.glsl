@@ -105,7 +105,8 @@ bool isFirstThere(LightFrame frame, Receiver receiver, uint index) {
     if (index == 0u) return true;
     LightEdge edge = lightEdges[index], before = lightEdges[index - 1u];
     SeenEdge seen;
-    return before.aLight != edge.aLight || before.bLight != edge.bLight || !hidesLight(frame, receiver, before, seen);
+    return before.aLight != edge.aLight || before.bLight != edge.bLight || before.cutSide != edge.cutSide ||
+           !hidesLight(frame, receiver, before, seen);
 }
 
 // Returns how many iterations no invocation has exceeded.
@@ -117,14 +118,14 @@ uint addMattering(LightFrame frame, Receiver receiver, bool seesLight, uint coun
         uint bits = 0u;
         for (uint i = 0u; i < min(32u, count - first); ++i) {
             LightEdge listed = lightEdges[mattering[first + i]];
-            bool isSeen = listed.aLight.w == wholeFace ? mayHide(frame, receiver, listed)
-                                                       : !frame.isInside && hidesLight(frame, receiver, listed, edge);
+            bool isSeen = listed.isFace ? mayHide(frame, receiver, listed)
+                                        : !frame.isInside && hidesLight(frame, receiver, listed, edge);
             if (isSeen) bits |= 1u << i;
         }
         for (; bits != 0u; bits &= bits - 1u) {
             uint index = mattering[first + uint(findLSB(bits))];
             LightEdge listed = lightEdges[index];
-            if (listed.aLight.w == wholeFace) {
+            if (listed.isFace) {
                 most = max(most, addFace(frame, receiver, listed));
             } else {
                 hidesLight(frame, receiver, listed, edge);

@@ -103,11 +103,11 @@ bool meetsShaft(vec3 low, vec3 high) {
 // False only if the edge hides nothing of the light from any receiver of the tile.
 bool mayMatter(LightEdge edge) {
     // Without an exit in between, so that compilers unroll it.
-    bool isOutside = false, isFace = edge.aLight.w == wholeFace;
-    vec3 third = isFace ? edge.planes[0].xyz : edge.aLight.xyz;
+    bool isOutside = false, isFace = edge.isFace;
+    vec3 third = isFace ? edge.planes[0].xyz : edge.aLight;
     for (int i = 0; i < shaftPlaneCount; ++i) {
         vec4 plane = shaft[i];
-        float nearest = min(dot(plane.xyz, edge.aLight.xyz), dot(plane.xyz, edge.bLight.xyz));
+        float nearest = min(dot(plane.xyz, edge.aLight), dot(plane.xyz, edge.bLight));
         isOutside = isOutside || min(nearest, dot(plane.xyz, third)) > plane.w;
     }
     if (isOutside || isFace) return !isOutside;

@@ -94,12 +94,13 @@ SHARED_STRUCT WedgeConstants {
 // weights add. A face's plane, dotted with (p, 1), is positive where p sees its front, times the direction in
 // which the face walks the edge, and within 1 of 0 where rounding decides; that of a missing face is 0.
 //
-// aLight.w, bLight.w: 0; or where the face ends because it cuts through a flat light, the sign of z on the
-// side that it is the edge of; or wholeFace: this is no edge but a face that reaches into a sphere, with
-// corners aLight, bLight and planes[0], in the plane planes[1].
+// isFace: this is no edge but a face that reaches into a sphere, with corners aLight, bLight and planes[0],
+// in the plane planes[1].
 struct LightEdge {
-    vec4 aLight;
-    vec4 bLight;
+    vec3 aLight;
+    float cutSide;  // where its face ends because it cuts through a flat light: the sign of z there; else 0
+    vec3 bLight;
+    bool32 isFace;
     vec4 planes[2];
 };
 
@@ -141,7 +142,6 @@ static_assert(sizeof(VolumeConstants) == 160 && sizeof(MeshConstants) == 160 && 
 static_assert(sizeof(LightTriangle) == 64 && sizeof(TriangleCluster) == 32);
 }  // namespace penumbra::soft_shadow_volumes
 #else
-const float wholeFace = 2.0;
 layout(std140) uniform VolumeBlock {
     VolumeConstants volume;
 };

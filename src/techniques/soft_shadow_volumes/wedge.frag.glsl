@@ -44,7 +44,7 @@ void main() {
     if (!loadLiftedReceiver(ivec2(gl_FragCoord.xy), receiver) || !makeLightFrame(receiver, frame)) return;
     if (frame.isInside) return;
     SeenEdge edge;
-    if (!seeEdge(frame, receiver.posLight, vec4(aLight, 0.0), vec4(bLight, 0.0), edge)) return;
+    if (!seeEdge(frame, receiver.posLight, aLight, bLight, 0.0, edge)) return;
     vec2 from, to;
     if (!partBeforeLight(frame, edge, from, to)) return;
     // A face that shows the light its front shows the receiver, on the other side of the edge, its back.
