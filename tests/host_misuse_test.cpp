@@ -183,6 +183,12 @@ Misuse::Calls Misuse::calls() {
         {"a view without a size", render([&] { view.width_px = 0; })},
         {"unsigned normals", textured(GL_RGBA8, 0, [&](GLuint name) { view.normalTexture = name; })},
         {"a normal texture that is none", render([&] { view.normalTexture = noTexture; })},
+        {"shading normals without heights",
+         textured(GL_RGB16F, 0, [&](GLuint name) { view.shadingNormalTexture = name; })},
+        {"shading normals without geometric ones", render([&] {
+             view.shadingNormalTexture = view.normalTexture;
+             view.normalTexture = 0;
+         })},
         {"a receiver texture of integers",
          textured(GL_R8UI, 0, [&](GLuint name) { view.receiverTexture = name; })},
         {"a view matrix with an infinity",

@@ -17,6 +17,7 @@
 #include "studio/errors.h"
 #include "studio/image/downsample.h"
 #include "studio/image/image_io.h"
+#include "studio/scene/builtin/builtin.h"
 #include "studio/scene/dark_light.h"
 #include "studio/workbench/progress.h"
 #include "studio/workbench/reference_technique.h"
@@ -85,6 +86,14 @@ struct RenderArguments {
     double framesPerSecond = 24;
     bool skipExisting = false;
     bool json = false;
+    std::optional<bool> smoothTerminator;
+
+    /// Pictures of files are smooth where nothing else was asked; what is measured is not.
+    bool isTerminatorSmooth() const {
+        const bool isFile =
+            std::ranges::find(builtinScenes(), scene.scene, &BuiltinInfo::name) == builtinScenes().end();
+        return smoothTerminator.value_or(isFile && visibility.empty());
+    }
 };
 
 enum class PictureFormat { png, exr };
@@ -217,6 +226,7 @@ class RenderCommand {
         Workbench workbench(arguments_.scene.device);
         requireSize(workbench, size);
         workbench.frame().setExposure(exposure);
+        workbench.frame().setSmoothTerminator(arguments_.isTerminatorSmooth());
         const RenderTechniques techniques(workbench, arguments_, scene.at(arguments_.scene.time_s).lights);
         workbench.open(scene);
 
@@ -372,6 +382,14 @@ void addRender(CLI::App& app, const std::string& commandLine) {
                      "N: the mean of N x N samples of shading and visibility a pixel")
         ->check(CLI::Range(1, finestAntialias))
         ->capture_default_str();
+    command
+        ->add_option_function<std::string>(
+            "--terminator",
+            [arguments](const std::string& which) { arguments->smoothTerminator = which == "smooth"; },
+            "smooth: no facets of smoothly shaded meshes in their shadows; faceted: as the triangles are; "
+            "else "
+            "smooth in pictures of files, where no --visibility is asked for")
+        ->check(CLI::IsMember({"smooth", "faceted"}));
     command->add_option("--frames", arguments->frames,
                         "A-B or A-BxSTEP: an animation, into numbered files (#### in -o)");
     command->add_option("--fps", arguments->framesPerSecond, "frames for each second of the animation")

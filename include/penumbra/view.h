@@ -58,6 +58,15 @@ struct View {
     /// camera sees. Interpolated shading normals make surfaces shadow themselves near the terminator.
     std::uint32_t normalTexture = 0;
 
+    /// As the depth texture, single- or multisampled, borrowed, optional (0: shadows are those of the
+    /// facets). For coarse meshes that are shaded smoothly, whose own shadow is a zigzag along the
+    /// terminator: what receives is then the smooth surface that the normals tell of, and its horizon counts.
+    /// RGB is the interpolated normal of the triangle's corners (no normal map), world space, of any length,
+    /// on the side of the geometric one; alpha is how far above the triangle, along that normal and in
+    /// metres, the smooth surface lies: depth.md has the lines of a shader for it. (0, 0, 0): not smooth.
+    /// Where it is the geometric normal nothing changes; so normalTexture must be there, too.
+    std::uint32_t shadingNormalTexture = 0;
+
     /// As the depth texture, single- or multisampled, borrowed, optional (0: everything receives). A pixel
     /// whose red channel is below 0.5 belongs to a surface that receives no shadow: its visibility is 1.
     std::uint32_t receiverTexture = 0;

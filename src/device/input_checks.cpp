@@ -118,8 +118,8 @@ void checkOutput(const VisibilityBuffer& out, const View& view, const AreaLight&
     if (gl::targetOf(internals.host.texture) != GL_TEXTURE_2D)
         refuse("VisibilityBuffer:",
                "the texture that it writes into does not exist any more: make another buffer");
-    for (const GLuint read :
-         {view.depthTexture, view.normalTexture, view.receiverTexture, light.radianceTexture}) {
+    for (const GLuint read : {view.depthTexture, view.normalTexture, view.shadingNormalTexture,
+                              view.receiverTexture, light.radianceTexture}) {
         if (read == internals.host.texture)
             refuse("VisibilityBuffer:",
                    "it writes into a texture that the view or the light reads: give it another");
@@ -227,6 +227,19 @@ void checkPicture(const View& view) {
             refuse("View:",
                    "normalTexture has no format of three signed channels, such as GL_RGBA16F or "
                    "GL_RGBA8_SNORM: give world-space normals in one, or 0");
+        }
+    }
+    if (view.shadingNormalTexture != 0) {
+        if (view.normalTexture == 0)
+            refuse("View:",
+                   "shadingNormalTexture needs a normalTexture beside it: give geometric normals, too");
+        requirePictureTexture(view.shadingNormalTexture, "View: shadingNormalTexture", view);
+        if (levelParameter(view.shadingNormalTexture, GL_TEXTURE_RED_TYPE) != GL_FLOAT ||
+            levelParameter(view.shadingNormalTexture, GL_TEXTURE_ALPHA_SIZE) == 0) {
+            refuse(
+                "View:",
+                "shadingNormalTexture has no format of four floats, such as GL_RGBA16F: give normals and, in "
+                "alpha, the height of the smooth surface in one, or 0");
         }
     }
     if (view.receiverTexture != 0) {

@@ -199,7 +199,7 @@ class Search {
 Diagnosis diagnoseInScope(Device::Internals& device, const View& view, std::span<const Caster> casters) {
     const ReadableTexture depth(view.depthTexture);
     View depthsAlone = view;
-    depthsAlone.normalTexture = depthsAlone.receiverTexture = 0;
+    depthsAlone.normalTexture = depthsAlone.shadingNormalTexture = depthsAlone.receiverTexture = 0;
     HostView hostView(device);
     const View plain = hostView.prepare(depthsAlone);
     return Search(device, view, plain, casters).run();

@@ -115,6 +115,13 @@ View HostView::prepare(const View& view) {
         plain.depthTexture = offsetUndoing_->run(plain.depthTexture, plain.normalTexture, view);
         plain.polygonOffset = {};
     }
+    if (view.shadingNormalTexture != 0) {
+        if (!smoothSurface_) smoothSurface_.emplace(device_);
+        plain.shadingNormalTexture =
+            copied(view.shadingNormalTexture, shadingNormals_, gl::Format::rgba32f, view);
+        device_.shaders.order()->makeAllVisible();
+        smoothSurface_->run(plain);
+    }
     plain.receiverTexture = copied(view.receiverTexture, receivers_, gl::Format::r8, view);
     // Techniques bind them by name, as they do a host's.
     if (plain.depthTexture != view.depthTexture || plain.normalTexture != view.normalTexture ||

@@ -8,6 +8,7 @@
 #include "src/gl/framebuffer.h"
 #include "src/gl/texture.h"
 #include "src/hosting/offset_undoing.h"
+#include "src/hosting/smooth_surface.h"
 #include "src/hosting/texture_copy.h"
 
 namespace penumbra {
@@ -48,7 +49,8 @@ class HostView {
     Device::Internals& device_;
     std::optional<TextureCopy> copy_;  ///< most hosts never need it
     std::optional<OffsetUndoing> offsetUndoing_;
-    gl::Texture depth_, normals_, receivers_;
+    std::optional<SmoothSurface> smoothSurface_;
+    gl::Texture depth_, normals_, shadingNormals_, receivers_;
     gl::Handle<gl::deleteFramebuffer> samples_;
 };
 

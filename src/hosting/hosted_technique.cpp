@@ -33,7 +33,7 @@ void HostedTechnique::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
     warnOfPolygonOffset(scope.hostsPolygonOffset(), inputs.view);
     if (internalsOf(device_).diagnoses) diagnoseOnce(inputs);
     const ReadableTexture depth(inputs.view.depthTexture), normals(inputs.view.normalTexture),
-        receivers(inputs.view.receiverTexture);
+        shadingNormals(inputs.view.shadingNormalTexture), receivers(inputs.view.receiverTexture);
     VisibilityBuffer& written = plain(out);
     technique_->render({view_.prepare(inputs.view), inputs.light, inputs.casters}, written);
     deliver(written, out);

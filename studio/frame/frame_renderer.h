@@ -32,6 +32,9 @@ class FrameRenderer {
     void draw(const GpuScene& scene, const SceneMoment& moment, const Camera& camera, int width_px,
               int height_px);
 
+    /// See View::shadingNormalTexture: on, facets of smoothly shaded meshes do not show in their shadows.
+    void setSmoothTerminator(bool isSmooth) { gbuffer_.setSmoothTerminator(isSmooth); }
+
     /// Forgets the light that was added: the same view again, with other visibility.
     void beginLighting();
 

@@ -41,6 +41,12 @@ void GBuffer::resize(int width_px, int height_px) {
     view_.depthTexture = depth_.name();
     view_.normalTexture = geometricNormals_.name();
     view_.receiverTexture = receivers_.name();
+    setSmoothTerminator(hasSmoothTerminator_);
+}
+
+void GBuffer::setSmoothTerminator(bool isSmooth) {
+    hasSmoothTerminator_ = isSmooth;
+    view_.shadingNormalTexture = isSmooth ? shadingNormals_.name() : 0;
 }
 
 void GBuffer::render(const GpuScene& scene, const CameraView& camera, int width_px, int height_px) {

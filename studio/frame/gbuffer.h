@@ -20,6 +20,8 @@ class GBuffer {
 
     /// For techniques, which get the depth, the geometric normals and the receiver mask.
     const View& view() const { return view_; }
+    /// Whether techniques get the shading normals, too (View::shadingNormalTexture). At first they do not.
+    void setSmoothTerminator(bool isSmooth);
     const gl::Texture& shadingNormals() const { return shadingNormals_; }
     const gl::Texture& albedo() const { return albedo_; }
     const gl::Texture& emission() const { return emission_; }  ///< nits, RGBA32F
@@ -34,6 +36,7 @@ class GBuffer {
     gl::Texture depth_, geometricNormals_, shadingNormals_, albedo_, receivers_, emission_;
     gl::Framebuffer framebuffer_, glassFramebuffer_;
     View view_;
+    bool hasSmoothTerminator_ = false;
 };
 
 }  // namespace penumbra::studio
