@@ -183,7 +183,8 @@ TEST_F(ShadowWidthTest, WhatEndsBeneathAnotherCasterKeepsItsUmbra) {
 
 /// From straight above, 4 m across.
 Scene straightEdge(LightShape shape = LightShape::rect, float zoom = 1) {
-    return withMoment(withLight(makeBuiltin("half-plane"), [=](Light& light) { light.shape.shape = shape; }),
+    return withMoment(withLight(onReceivingGround(makeBuiltin("half-plane")),
+                                [=](Light& light) { light.shape.shape = shape; }),
                       [=](SceneMoment& moment) {
                           moment.cameras.erase(moment.cameras.begin());
                           *moment.cameras.front().orthographicHeight_m /= zoom;
@@ -247,13 +248,14 @@ TEST_F(ShadowWidthTest, WidthsAreMeasuredAtTheReceiverOrOnAPlaneBehindTheBlocker
 /// An open mesh has no back faces, or nothing else.
 TEST_F(ShadowWidthTest, OpenBlockersThatOnlyCastHaveShadowsWhicheverWayTheyFace) {
     for (const bool isTurned : {false, true}) {
-        const Scene scene = withMoment(makeBuiltin("disk-over-ground"), [&](SceneMoment& moment) {
-            moment.cameras.erase(moment.cameras.begin());
-            for (Instance& instance : moment.instances) {
-                instance.receives = !instance.casts;
-                if (instance.casts && isTurned) instance.worldFromMesh[0] *= -1;
-            }
-        });
+        const Scene scene =
+            withMoment(onReceivingGround(makeBuiltin("disk-over-ground")), [&](SceneMoment& moment) {
+                moment.cameras.erase(moment.cameras.begin());
+                for (Instance& instance : moment.instances) {
+                    instance.receives = !instance.casts;
+                    if (instance.casts && isTurned) instance.worldFromMesh[0] *= -1;
+                }
+            });
         for (const char* mode : {"exact", "compositing", "cpu-sweep"}) {
             for (const char* backFaces : {"true", "false"}) {
                 const LightResult result =
@@ -268,7 +270,7 @@ TEST_F(ShadowWidthTest, OpenBlockersThatOnlyCastHaveShadowsWhicheverWayTheyFace)
 
 /// Of a closed one the farthest surfaces are nearer to the receiver, which makes harder edges (figure 6).
 TEST_F(ShadowWidthTest, BackFacesMakeHarderEdges) {
-    const Scene scene = withMoment(makeBuiltin("sphere"), [&](SceneMoment& moment) {
+    const Scene scene = withMoment(onReceivingGround(makeBuiltin("sphere")), [&](SceneMoment& moment) {
         for (Instance& instance : moment.instances) instance.receives = !instance.casts;
     });
     const auto inPenumbra = [&](const char* backFaces) {
@@ -286,7 +288,7 @@ TEST_F(ShadowWidthTest, BackFacesMakeHarderEdges) {
 TEST_F(ShadowWidthTest, BlockersThatFillTheMapLeaveNoLight) {
     const Scene scene = withMoment(makeBuiltin("half-plane"), [](SceneMoment& moment) {
         for (Instance& instance : moment.instances) {
-            if (instance.casts) instance.worldFromMesh[3].x = 0;
+            if (!isGround(instance)) instance.worldFromMesh[3].x = 0;
         }
     });
     for (const char* mode : {"exact", "compositing", "cpu-sweep"}) {
@@ -360,7 +362,7 @@ TEST_F(ShadowWidthTest, MapsAreMadeAnewOnlyWhenSomethingInThemHasChanged) {
 
     SceneMoment moved = scene.at(0);
     for (Instance& instance : moved.instances) {
-        if (instance.casts) instance.worldFromMesh[3].y += 0.1f;
+        if (!isGround(instance)) instance.worldFromMesh[3].y += 0.1f;
     }
     const LightResult after = run(moved);
     EXPECT_EQ(timesMade(after), timesMade(first) + 1);
@@ -368,7 +370,7 @@ TEST_F(ShadowWidthTest, MapsAreMadeAnewOnlyWhenSomethingInThemHasChanged) {
                                               withMoment(makeBuiltin("two-boxes"),
                                                          [](SceneMoment& m) {
                                                              for (Instance& instance : m.instances) {
-                                                                 if (instance.casts)
+                                                                 if (!isGround(instance))
                                                                      instance.worldFromMesh[3].y += 0.1f;
                                                              }
                                                          }),
