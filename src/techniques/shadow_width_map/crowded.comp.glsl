@@ -5,6 +5,7 @@ layout(local_size_x = 64) in;
 
 #include "src/techniques/shadow_width_map/divisions.glsl"
 #include "src/techniques/shadow_width_map/penumbra_pixels.glsl"
+#include "src/techniques/shadow_width_map/proven.glsl"
 
 // Of two shares of the footprint, each cut off by a straight edge, what they have in common, the edges' normals having this
 // cosine: what two that look against each other leave, the product at a right angle, and all of the first where they look
@@ -67,5 +68,5 @@ void main() {
     bool isBlocked = isAbove(r, ivec2(r.place_px), stored);
     float atMost, seen = seenPastNearest(r, footprint, isBlocked, own, atMost);
     seen = min(seenAmong(r, footprint, seen, isBlocked ? own : 3e38), atMost);
-    imageStore(visibility, pixel, vec4(clamp(seen, 0.0, 1.0)));
+    imageStore(visibility, pixel, vec4(clamp(proven(receiver, r, seen), 0.0, 1.0)));
 }

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "src/techniques/shadow_width_map/shadow_width_io.h"
+
 namespace penumbra::shadow_width_map {
 namespace {
-
-constexpr double widestMargin = 1.0 / 6;  // of the window
 
 /// How far from its hard edge a penumbra can begin, in tangents or metres of the camera: see footprint.glsl.
 /// A blocker that reaches the camera's plane makes it as wide as is allowed.
@@ -32,7 +32,7 @@ double penumbraReach(const AreaLight& light, const LightSpaceScene& scene, const
                                   : double(light.radius_m);
         reach = extent == 0 ? 0 : extent / nearest;
     }
-    return std::min(reach, widestMargin * window);
+    return std::min(reach, double(widestMargin) * window);
 }
 
 /// The camera with a window of a grid of sizes and places and near and far planes of a grid of depths, around
@@ -135,8 +135,10 @@ double planeBehindCasters_m(const ShadowInputs& inputs, const LightSpaceScene& s
     return farthest_m;
 }
 
-LightCameras fitMapCameras(const AreaLight& light, const LightSpaceScene& scene, int mapSize_px) {
-    LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = mapSize_px, .steadyAxis = true});
+LightCameras fitMapCameras(const AreaLight& light, const LightSpaceScene& scene, int mapSize_px,
+                           bool splits) {
+    LightCameras cameras =
+        fitLightCameras(light, scene, {.mapSize_px = mapSize_px, .steadyAxis = true, .splits = splits});
     for (LightCamera& camera : cameras) {
         const glm::dvec2 extent = camera.windowMax - camera.windowMin;
         const double window = std::max(extent.x, extent.y);

@@ -6,6 +6,7 @@ layout(local_size_x = 64) in;
 
 #include "src/techniques/shadow_width_map/divisions.glsl"
 #include "src/techniques/shadow_width_map/penumbra_pixels.glsl"
+#include "src/techniques/shadow_width_map/proven.glsl"
 
 uniform sampler2DArray widths;
 
@@ -42,6 +43,7 @@ void main() {
             seen = seenPastNearest(r, footprint, isBlocked, storedNearness(r.depth, stored), atMost);
             seen = min(seen, atMost);
             isAmongSeveral = isCrowded(r, footprint);
+            if (!isAmongSeveral) seen = proven(receiver, r, seen);
         }
     }
     imageStore(visibility, pixel, vec4(clamp(seen, 0.0, 1.0)));

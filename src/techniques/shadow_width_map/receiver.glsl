@@ -45,8 +45,15 @@ vec3 turnedToFace(int map, vec3 direction) { return mat3(cameraOf(map).faceFromL
 vec3 movedToFace(int map, vec3 pos) { return (cameraOf(map).faceFromLight * vec4(pos, 1.0)).xyz; }
 #endif
 
-// The map in whose window the receiver lies deepest, so that all that surrounds its shadow is in the map too; -1 if
-// none sees it.
+// How far inside a distant light's map, in shares of its window, whatever may shade a receiver is in the map too: as far as
+// fitMapCameras() widens windows, or as far as any penumbra there reaches.
+float farInside(LightCameraConstants camera) {
+    float depth_m = camera.depth.far_m - camera.depth.near_m;
+    return min(widestMargin, constants.radius * depth_m * max(camera.window.perExtent.x, camera.window.perExtent.y));
+}
+
+// The map in whose window the receiver lies deepest, so that all that surrounds its shadow is in the map too; of a distant
+// light's, which go from fine to coarse, the first in which it lies deep enough for that. -1 if none sees it.
 int deepestMap(vec3 posLight, out MapPoint best) {
     int bestMap = -1;
     float deepest = 0.0;
@@ -59,6 +66,7 @@ int deepestMap(vec3 posLight, out MapPoint best) {
         deepest = inside;
         best = point;
         bestMap = map;
+        if (camera.depth.isOrthographic && inside >= farInside(camera)) break;
     }
     return bestMap;
 }

@@ -11,6 +11,10 @@
 namespace penumbra::shadow_width_map {
 #endif
 
+// How far windows are widened at most, beyond the receivers that they were fitted to, in shares of
+// themselves.
+const float widestMargin = 1.0f / 6.0f;
+
 // The light and the maps, for all that resolves. Directions are in the receivers' space: the map's where
 // there is one map, else the light's. Half axes are (width / 2, 0, 0) and (0, height / 2, 0) of a rect in the
 // light's space, (radius, 0, 0) and (0, radius, 0) of a disk, 0 of others.

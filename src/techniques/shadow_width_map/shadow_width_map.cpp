@@ -47,7 +47,7 @@ void ShadowWidthMap::describe(ParameterVisitor& visitor) {
 void ShadowWidthMap::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
-    const LightCameras cameras = fitMapCameras(inputs.light, scene, mapSize_px_);
+    const LightCameras cameras = fitMapCameras(inputs.light, scene, mapSize_px_, mode_ == exact);
 
     std::pmr::vector<double> key{
         {double(mode_), double(mapSize_px_), double(largestHalfExtent(inputs.light))},

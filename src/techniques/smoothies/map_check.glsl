@@ -6,7 +6,7 @@
 // points' noise. Where the edges, and what hides the centre, do not lie at about one height, however, they are not taken
 // to see more: a map does not tell what is under a blocker. And one edge alone is not taken to hide too little: on a bent
 // surface the receiver's own plane, which points are compared with, is in the way.
-#include "src/techniques/smoothies/light_points.glsl"
+#include "src/techniques/smoothies/glances.glsl"
 
 const int points = 32;                      // some 0.03 rms off, on a straight edge
 const float texelNoise = 0.15;              // and more by this, over the radius of the light's image in texels
@@ -14,6 +14,7 @@ const vec2 disagreement = vec2(0.05, 0.2);  // from where on points count, and c
 const vec2 oneHeight = vec2(0.15, 0.3);     // of the way from the receiver to the highest edge
 const float leastRadius_texels = 1.0;       // below, the map shows nothing of the light's size
 
+#ifndef COLORED
 float checkedByMap(Lookup l, Neighbours n, PastEdge past[layersPerCamera], float seen) {
     float receiver = nearnessOf(l.camera, l.point.posFace.z);
     vec2 range = vec2(1e30, -1e30);
@@ -54,3 +55,4 @@ float checkedByMap(Lookup l, Neighbours n, PastEdge past[layersPerCamera], float
     if (difference > 0.0) trust *= 1.0 - smoothstep(oneHeight.x, oneHeight.y, spread);
     return difference > 0.0 || several > 1 ? seen + trust * difference : seen;
 }
+#endif

@@ -7,7 +7,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "src/techniques/smoothies/lookup.glsl"
-#include "src/techniques/smoothies/light_points.glsl"
+#include "src/techniques/smoothies/glances.glsl"
 
 #ifdef COLORED
 layout(rgba16f) uniform image2D visibility;

@@ -7,9 +7,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/smoothies/lookup.glsl"
 #include "src/techniques/smoothies/light_profile.glsl"
 #include "src/techniques/smoothies/past_edges.glsl"
-#ifndef COLORED
 #include "src/techniques/smoothies/map_check.glsl"
-#endif
+#include "src/techniques/common/map_proof.glsl"
 #include "src/techniques/smoothies/tiles.glsl"
 
 uniform writeonly image2D visibility;
@@ -17,10 +16,15 @@ uniform writeonly image2D visibility;
 // A sliver of a light above the horizon is taken for none: the quotient of two such parts is all noise.
 const float leastPart = 0.004;
 
-// `isWhole`: all of the light is above the receiver's horizon.
-Seen visibilityAt(Receiver receiver, bool isWhole) {
-    Lookup l;
-    if (!findCamera(receiver, l)) return Seen(1.0);
+// Smoothies are as wide as the light makes them, and not as the paper's parameters do.
+bool isOfLight(int camera) {
+    SmoothieConstants c = smoothies[camera];
+    return c.hasInnerHalf && c.falloff == falloffLight && c.isRemapped && c.fixedWidth == 0.0;
+}
+
+// `isWhole`: all of the light is above the receiver's horizon. `highest`: the nearness of the highest blocker that was found.
+Seen visibilityAt(Lookup l, bool isWhole, out float highest) {
+    highest = nearnessOf(l.camera, l.point.posFace.z);
     Neighbours n = neighboursOf(l);
     PastEdge past[layersPerCamera];
     past[layerOuter] = pastEdgeNear(l, n.litTexel, layerOuter);
@@ -40,11 +44,16 @@ Seen visibilityAt(Receiver receiver, bool isWhole) {
     for (int i = 0; i < innerLayers; ++i) {
         behind -= pastBoth(past[firstInnerLayer + i], past[firstInnerLayer + (i + 1) % innerLayers]);
     }
+    for (int i = 0; i < layersPerCamera; ++i) {
+        if (isEdge(past[i])) highest = max(highest, past[i].nearness);
+    }
+    if (n.behind > 0.0) {
+        float above = texelFetch(depthMaps, ivec3(n.behindTexel, l.camera), 0).r;
+        highest = max(highest, storedNearness(l.camera, above));
+    }
     Seen seen = mix(min(near.seen + opposite, 1.0), clamp(behind, most, Seen(1.0)), n.behind);
 #ifndef COLORED
-    SmoothieConstants c = smoothies[l.camera];
-    bool isOfLight = c.falloff == falloffLight && c.isRemapped && c.fixedWidth == 0.0;
-    if (isWhole && isOfLight) seen = checkedByMap(l, n, past, seen);
+    if (isWhole && isOfLight(l.camera)) seen = checkedByMap(l, n, past, seen);
 #endif
     return seen;
 }
@@ -55,13 +64,21 @@ void main() {
     ivec2 pixel = tileSize_px * ivec2(tiles[index] & 0xffffu, tiles[index] >> 16) + ivec2(gl_LocalInvocationID.xy);
     if (any(greaterThanEqual(pixel, view.size_px))) return;
     Receiver receiver;
+    Lookup l;
     Seen seen = Seen(1.0);
-    if (loadReceiver(pixel, receiver)) {
+    if (loadReceiver(pixel, receiver) && findCamera(receiver, l)) {
         // Edges tell the part of the whole light that is seen. A surface's own horizon is an edge like others, which is
         // why smoothies darken the terminator; asked for is the part of what is above that horizon.
         Horizon horizon = horizonOf(receiver);
         Seen above = horizon.height < 1.0 ? partBeside(0, horizon.extent, horizon.height) : Seen(1.0);
-        seen = step(leastPart, above) * min(visibilityAt(receiver, horizon.height >= 1.0) / max(above, leastPart), 1.0);
+        float highest;
+        seen = visibilityAt(l, horizon.height >= 1.0, highest);
+        seen = step(leastPart, above) * min(seen / max(above, leastPart), 1.0);
+        if (isOfLight(l.camera)) {
+            SmoothieConstants c = smoothies[l.camera];
+            MapReceiver mapped = MapReceiver(l.camera, c.camera.window, c.camera.depth, l.point.posFace, l.normalFace, l.tolerance_m);
+            seen = within(proofOf(depthMaps, mapped, lightFigure(l.camera), highest), seen);
+        }
     }
 #ifdef COLORED
     imageStore(visibility, pixel, vec4(seen, 1.0));

@@ -125,7 +125,8 @@ void Smoothies::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     const AreaLight& light = inputs.light;
     const glm::dmat4 lightFromWorldMatrix = lightFromWorld(inputs);
     const LightSpaceScene scene = makeLightSpaceScene(inputs, lightFromWorldMatrix);
-    const LightCameras cameras = fitLightCameras(light, scene, {.mapSize_px = settings_.mapSize_px});
+    const LightCameras cameras =
+        fitLightCameras(light, scene, {.mapSize_px = settings_.mapSize_px, .splits = true});
     hasSmoothies_ = (hasSize(light) || settings_.t > 0) && !cameras.empty();
     drawMaps(inputs, scene, cameras);
 
