@@ -136,7 +136,7 @@ Scene whiteFloorUnder(const Light& light) {
     return withMoment(std::move(scene), [light](SceneMoment& moment) {
         moment.lights = {light};
         moment.cameras.erase(moment.cameras.begin());  // leaves the one that looks straight down
-        std::erase_if(moment.instances, [](const Instance& instance) { return instance.casts; });
+        std::erase_if(moment.instances, [](const Instance& instance) { return !isGround(instance); });
     });
 }
 

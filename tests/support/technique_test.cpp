@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/technique_test.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -91,6 +92,16 @@ Scene withLight(Scene scene, const std::function<void(Light&)>& change) {
 Scene withMoment(Scene scene, const std::function<void(SceneMoment&)>& change) {
     scene.motion = std::make_shared<ChangedMotion>(scene.motion, change);
     return scene;
+}
+
+bool isGround(const Instance& instance) {
+    return instance.node == 0;
+}
+
+Scene onReceivingGround(Scene scene) {
+    return withMoment(std::move(scene), [](SceneMoment& moment) {
+        std::ranges::find_if(moment.instances, isGround)->casts = false;
+    });
 }
 
 Scene withAlphaMask(Scene scene, Picture picture) {

@@ -249,7 +249,7 @@ Scene stripedPrimitives(bool ownTextures) {
         if (i < 2 || ownTextures) scene.textures.push_back({.picture = firstPicture + which});
         Mesh mesh = scene.meshes[std::size_t(instances[i].mesh)];
         cutStripes(mesh, 0.2f);
-        if (instances[i].casts) {
+        if (!isGround(instances[i])) {
             mesh.material = int(scene.materials.size());
             scene.materials.push_back({.baseColorTexture = firstTexture + (ownTextures ? int(i) : which),
                                        .alpha = Material::Alpha::mask});

@@ -174,7 +174,7 @@ TEST_F(KeptInputsTest, MapsThatAreKeptShowReceiversThatHaveMoved) {
     const SceneMoment moment = scene.at(0);
     SceneMoment elsewhere =
         moment;  // nothing but the ground, raised above the boxes, which shadow nothing there
-    std::erase_if(elsewhere.instances, [](const Instance& instance) { return instance.casts; });
+    std::erase_if(elsewhere.instances, [](const Instance& instance) { return !isGround(instance); });
     for (Instance& instance : elsewhere.instances) instance.worldFromMesh[3].y += 3;
     // All samples, so that the tree is no matter of the receivers.
     const Settings settings = with({{"min_depth", "4"}});

@@ -43,7 +43,7 @@ Scene underPanel(std::vector<std::pair<Mesh, glm::vec3>> casters, const glm::vec
     }
     const int first = int(scene.meshes.size()) - int(casters.size());
     return withMoment(std::move(scene), [=](SceneMoment& moment) {
-        std::erase_if(moment.instances, [](const Instance& instance) { return instance.casts; });
+        std::erase_if(moment.instances, [](const Instance& instance) { return !isGround(instance); });
         for (int i = 0; i < int(casters.size()); ++i) {
             Instance instance{.mesh = first + i, .node = 0};
             instance.worldFromMesh = glm::translate(glm::mat4(1), casters[std::size_t(i)].second);

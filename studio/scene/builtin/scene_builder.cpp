@@ -87,8 +87,7 @@ void SceneBuilder::place(std::string node, int mesh, Pose pose, Role role, Morph
 }
 
 void SceneBuilder::ground(float size_m) {
-    place("ground", mesh("ground", plane(size_m, size_m), {0.55f, 0.53f, 0.50f}), at(glm::vec3(0)),
-          Role::receiverOnly);
+    place("ground", mesh("ground", plane(size_m, size_m), {0.55f, 0.53f, 0.50f}), at(glm::vec3(0)));
 }
 
 int SceneBuilder::texture(Picture picture) {

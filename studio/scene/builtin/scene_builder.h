@@ -13,8 +13,7 @@ namespace penumbra::studio {
 /// What a mesh does to the light that meets it.
 enum class Role {
     both,          ///< casts and receives
-    receiverOnly,  ///< grounds and walls: nothing that is seen lies behind them, so that their shadow would
-                   ///< be unseen
+    receiverOnly,  ///< casts nothing
 };
 
 /// Where a mesh is at a time.
@@ -37,7 +36,7 @@ class SceneBuilder {
     /// Adds a node of this name with the mesh; a mesh with morph targets needs `morph`.
     void place(std::string node, int mesh, Pose pose, Role role = Role::both, MorphPose morph = {});
 
-    /// Adds a square ground of `size_m` at y = 0 that only receives.
+    /// Adds a square ground of `size_m` at y = 0, which casts and receives.
     void ground(float size_m);
 
     /// Adds a picture with a clamped sampler and returns the texture's index.

@@ -46,7 +46,7 @@ Scene columns() {
     const int walls = scene.mesh("room", room({9, 4, 9}), {0.62f, 0.58f, 0.52f});
     const int shaft = scene.mesh("shaft", penumbra::studio::cylinder(0.26f, 3.4f, 48), cream);
     const int foot = scene.mesh("foot", box({0.8f, 0.3f, 0.8f}), cream);
-    scene.place("room", walls, at({0, 2, 0}), Role::receiverOnly);
+    scene.place("room", walls, at({0, 2, 0}));
     int number = 0;
     for (float x : {-2.2f, 2.2f})
         for (float z : {-2.8f, 0.0f, 2.8f}) {
