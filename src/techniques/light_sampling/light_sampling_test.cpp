@@ -178,7 +178,8 @@ TEST_F(LightSamplingTest, AdaptiveIsAsGoodAsUniformWithAllSamples) {
     // samples are taken by six maps each, or with a texture, the test above would say the same.)
     constexpr PictureSize larger{320, 180};
     for (const BuiltinInfo& info : builtinScenes()) {
-        if (info.name == std::string_view("cylinder") || info.name == std::string_view("textured-window")) {
+        if (info.name == std::string_view("cylinder") || info.name == std::string_view("textured-window") ||
+            info.name == std::string_view("sunny-window")) {
             continue;
         }
         const Scene scene = makeBuiltin(info.name);

@@ -21,7 +21,7 @@ std::span<const BuiltinInfo> builtinScenes();
 /// Makes the scene of this name. Throws InputError with the nearest names if there is none.
 ///
 /// In metres, +Y up, the ground at y = 0. Of the closed-form scenes every
-/// blocker is a sheet without thickness; the blockers of the others are closed, but for the cloth.
+/// blocker is a sheet without thickness; the blockers of the others are closed, but for the cloth and the lamp's shade.
 Scene makeBuiltin(std::string_view name);
 
 }  // namespace penumbra::studio

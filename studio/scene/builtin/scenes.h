@@ -35,4 +35,9 @@ Scene moving();
 Scene texturedWindow();
 Scene manyLights();
 
+// scenes_rooms.cpp
+Scene office();
+Scene sunnyWindow();
+Scene lampShade();
+
 }  // namespace penumbra::studio::builtin
