@@ -15,13 +15,17 @@ CasterPainter::CasterPainter(Device::Internals& device, int width_px, int height
               .height_px = height_px,
               .format = gl::Format::rgba32f,
               .label = "casters as the host should see them"}),
+      slopes_({.width_px = width_px,
+               .height_px = height_px,
+               .format = gl::Format::rg32f,
+               .label = "slopes of casters' depth"}),
       depth_({.width_px = width_px,
               .height_px = height_px,
               .format = gl::Format::depth32f,
               .label = "casters' depth"}),
-      framebuffer_({&color_}, &depth_, "casters as the host should see them") {}
+      framebuffer_({&color_, &slopes_}, &depth_, "casters as the host should see them") {}
 
-CasterPicture CasterPainter::draw(std::span<const Caster> casters, const Reading& reading) {
+void CasterPainter::paint(std::span<const Caster> casters, const Reading& reading) {
     // Our clip space is from 0 to 1, in which depths lie as they are stored.
     glm::dmat4 storedFromClip(1);
     if (reading.depth.range == DepthConvention::Range::minusOneToOne) {
@@ -34,7 +38,9 @@ CasterPicture CasterPainter::draw(std::span<const Caster> casters, const Reading
                              .height_px = color_.height_px(),
                              .depthTest = reading.depth.reversed ? gl::Compare::greater : gl::Compare::less,
                              .depthWrite = true});
-    pass.clearColor(0, std::array<float, 4>{0, 0, -1, 0}).clearDepth(reading.depth.reversed ? 0 : 1);
+    pass.clearColor(0, std::array<float, 4>{0, 0, -1, 0})
+        .clearColor(1, std::array<float, 4>{})
+        .clearDepth(reading.depth.reversed ? 0 : 1);
     for (std::size_t i = 0; i < casters.size(); ++i) {
         const Mesh& mesh = *casters[i].mesh;
         if (mesh.indices().empty()) continue;
@@ -50,6 +56,10 @@ CasterPicture CasterPainter::draw(std::span<const Caster> casters, const Reading
             .indices(mesh.indexBuffer());
         pass.drawIndexed(mesh.indices().size());
     }
+}
+
+CasterPicture CasterPainter::draw(std::span<const Caster> casters, const Reading& reading) {
+    paint(casters, reading);
     CasterPicture picture{color_.width_px(), color_.height_px(), {}};
     picture.pixels.resize(std::size_t(picture.width_px) * std::size_t(picture.height_px));
     color_.read(std::as_writable_bytes(std::span(picture.pixels)));

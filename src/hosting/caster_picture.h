@@ -36,15 +36,21 @@ struct CasterPicture {
     }
 };
 
-/// Draws them, and reads them back.
 class CasterPainter {
   public:
     CasterPainter(Device::Internals& device, int width_px, int height_px);
+
+    /// Into textures that are kept until the next call.
+    void paint(std::span<const Caster> casters, const Reading& reading);
+    const gl::Texture& pixels() const { return color_; }   ///< RGBA32F: CasterPicture::Pixel
+    const gl::Texture& slopes() const { return slopes_; }  ///< RG32F: of that depth, a pixel to the right, up
+
+    /// Paints, and reads back.
     CasterPicture draw(std::span<const Caster> casters, const Reading& reading);
 
   private:
     gl::Program program_;
-    gl::Texture color_, depth_;
+    gl::Texture color_, slopes_, depth_;
     gl::Framebuffer framebuffer_;
 };
 

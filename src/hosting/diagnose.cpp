@@ -201,7 +201,7 @@ Diagnosis diagnoseInScope(Device::Internals& device, const View& view, std::span
     View depthsAlone = view;
     depthsAlone.normalTexture = depthsAlone.shadingNormalTexture = depthsAlone.receiverTexture = 0;
     HostView hostView(device);
-    const View plain = hostView.prepare(depthsAlone);
+    const View plain = hostView.prepare(depthsAlone, {});
     return Search(device, view, plain, casters).run();
 }
 

@@ -6,6 +6,7 @@
 #include "src/device/compatibility_state.h"
 #include "src/device/glm_types.h"
 #include "src/gl/texture_target.h"
+#include "src/hosting/readings.h"
 
 namespace penumbra {
 namespace {
@@ -89,7 +90,7 @@ ReadableTexture::~ReadableTexture() {
     }
 }
 
-View HostView::prepare(const View& view) {
+View HostView::prepare(const View& view, std::span<const Caster> casters) {
     if (view.isOfPoints) return plainPoints(view);
     View plain = view;
     glm::dvec3 shift(0);
@@ -112,8 +113,10 @@ View HostView::prepare(const View& view) {
         if (!offsetUndoing_) offsetUndoing_.emplace(device_);
         // The normals' copy is read by the same device's next pass.
         device_.shaders.order()->makeAllVisible();
-        plain.depthTexture = offsetUndoing_->run(plain.depthTexture, plain.normalTexture, view);
-        plain.polygonOffset = {};
+        const bool needsCasters = plain.normalTexture == 0 && !casters.empty();
+        const glm::dvec3 beside(shift.x, shift.y, 0);
+        offsetUndoing_->run(
+            plain, view, needsCasters ? &paint(casters, view, shifted(view.clipFromView, beside)) : nullptr);
     }
     if (view.shadingNormalTexture != 0) {
         if (!smoothSurface_) smoothSurface_.emplace(device_);
@@ -130,6 +133,17 @@ View HostView::prepare(const View& view) {
     }
     plain.x_px = plain.y_px = plain.sample = 0;
     return plain;
+}
+
+const CasterPainter& HostView::paint(std::span<const Caster> casters, const View& view,
+                                     const Mat4& clipFromView) {
+    if (!casterPainter_ || casterPainter_->pixels().width_px() != view.width_px ||
+        casterPainter_->pixels().height_px() != view.height_px)
+        casterPainter_.emplace(device_, view.width_px, view.height_px);
+    Reading reading = readingOf(view, casters);
+    reading.clipFromView = toGlm(clipFromView);
+    casterPainter_->paint(casters, reading);
+    return *casterPainter_;
 }
 
 GLuint HostView::copied(GLuint texture, gl::Texture& copy, gl::Format format, const View& view) {

@@ -7,6 +7,7 @@
 #include "penumbra/view.h"
 #include "src/gl/framebuffer.h"
 #include "src/gl/texture.h"
+#include "src/hosting/caster_picture.h"
 #include "src/hosting/offset_undoing.h"
 #include "src/hosting/smooth_surface.h"
 #include "src/hosting/texture_copy.h"
@@ -39,16 +40,19 @@ class HostView {
     explicit HostView(Device::Internals& device) : device_(device) {}
 
     /// The view in the form that techniques know, copied only where it has to be. It must pass
-    /// `checkInputs`, and its textures be readable.
-    View prepare(const View& view);
+    /// `checkInputs`, and its textures be readable. `casters`, of which there may be none, are what tells a
+    /// polygon offset's slopes where there are no normals.
+    View prepare(const View& view, std::span<const Caster> casters);
 
   private:
     GLuint copied(GLuint texture, gl::Texture& copy, gl::Format format, const View& view);
     glm::dvec2 samplePlace(const View& view);
+    const CasterPainter& paint(std::span<const Caster> casters, const View& view, const Mat4& clipFromView);
 
     Device::Internals& device_;
     std::optional<TextureCopy> copy_;  ///< most hosts never need it
     std::optional<OffsetUndoing> offsetUndoing_;
+    std::optional<CasterPainter> casterPainter_;
     std::optional<SmoothSurface> smoothSurface_;
     gl::Texture depth_, normals_, shadingNormals_, receivers_;
     gl::Handle<gl::deleteFramebuffer> samples_;

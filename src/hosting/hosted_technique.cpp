@@ -35,7 +35,7 @@ void HostedTechnique::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
     const ReadableTexture depth(inputs.view.depthTexture), normals(inputs.view.normalTexture),
         shadingNormals(inputs.view.shadingNormalTexture), receivers(inputs.view.receiverTexture);
     VisibilityBuffer& written = plain(out);
-    technique_->render({view_.prepare(inputs.view), inputs.light, inputs.casters}, written);
+    technique_->render({view_.prepare(inputs.view, inputs.casters), inputs.light, inputs.casters}, written);
     deliver(written, out);
     // Whatever the host does with it next.
     internalsOf(device_).shaders.order()->makeAllVisible();

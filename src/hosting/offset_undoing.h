@@ -4,6 +4,7 @@
 #include "penumbra/view.h"
 #include "src/device/device_internals.h"
 #include "src/gl/texture.h"
+#include "src/hosting/caster_picture.h"
 
 namespace penumbra {
 
@@ -13,14 +14,16 @@ class OffsetUndoing {
   public:
     explicit OffsetUndoing(Device::Internals& device);
 
-    /// `depthTexture` shows the view's picture and nothing else, and so does `normalTexture`, which may be 0: then
-    /// slopes come from the depths alone, and triangles smaller than three pixels are guessed at. The result is kept
-    /// until the next call.
-    GLuint run(GLuint depthTexture, GLuint normalTexture, const View& view);
+    /// Replaces the depths of `plain`, which show the view's picture and nothing else. Without normals each
+    /// pixel's slopes are those of the caster that it shows; where it shows none (or there is no picture of
+    /// them, null) they come from the depths alone, and triangles narrower than three pixels are guessed at.
+    /// `plain` then gets normals, too: out of depths where an offset was guessed they would be wrong. All is
+    /// kept until the next call. `view` is the host's, whose depths' format tells what a unit is.
+    void run(View& plain, const View& view, const CasterPainter* casters);
 
   private:
     gl::Program program_;
-    gl::Texture undone_;
+    gl::Texture undone_, normals_;
 };
 
 }  // namespace penumbra

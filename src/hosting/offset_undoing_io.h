@@ -10,14 +10,16 @@ namespace penumbra {
 #endif
 
 SHARED_STRUCT OffsetUndoingConstants {
-    mat4 worldFromDepth;     // from normalised x and y, and depth; w not divided out
+    mat4 worldFromDepth;       // from normalised x and y, and depth; w not divided out
     mat4 depthPlaneFromWorld;  // of planes
+    mat4 worldPlaneFromDepth;
     ivec2 size_px;
     float factor;  // glPolygonOffset's
     float units;
     float leastDifference;  // that depths of fixed bits can have; 0: depths are floats
     float background;
     bool32 hasNormals;
+    bool32 hasCasters;
 };
 
 #ifdef __cplusplus
