@@ -30,7 +30,7 @@ target_sources(penumbra PRIVATE $file.cpp)
 penumbra_shaders(penumbra $file.comp.glsl)
 
 if(PENUMBRA_TESTS)
-    penumbra_test(${room}_test SOURCES ${file}_test.cpp LIBRARIES penumbra_test_support)
+    penumbra_test(${room}_test SLOWLY_IN_BOTH_PROFILES SOURCES ${file}_test.cpp LIBRARIES penumbra_test_support)
 endif()
 EOF
 cat >"$folder/$file.h" <<EOF
