@@ -199,7 +199,8 @@ const std::vector<Host> hosts = {
      "occt_host",
      "OpenCASCADE",
      "libocct-visualization-dev, libocct-data-exchange-dev",
-     {0.32f, 0.35f, 0.01}}};
+     {0.32f, 0.35f, 0.01}},
+    {"ogre", "ogre_host", "OGRE 1.12", "libogre-1.12-dev", {0.27f, 0.3f, 0.01}}};
 INSTANTIATE_TEST_SUITE_P(Examples, Hosts, ::testing::ValuesIn(hosts),
                          [](const auto& test) { return std::string(test.param.name); });
 
