@@ -38,6 +38,7 @@ void expectInRange(const Image& visibility) {
 void growToTwice(Light& light) {
     light.shape.width_m *= 2;
     light.shape.height_m *= 2;
+    light.shape.length_m *= 2;
     light.shape.radius_m *= 2;
     light.shape.angle_rad *= 2;
 }
@@ -84,11 +85,12 @@ TEST_P(Contract, VisibilityLiesBetweenZeroAndOneInEveryBuiltinScene) {
 }
 
 TEST_P(Contract, EveryLightShapeAndSideWorks) {
-    for (const LightShape shape :
-         {LightShape::rect, LightShape::disk, LightShape::sphere, LightShape::distant}) {
+    for (const LightShape shape : {LightShape::rect, LightShape::disk, LightShape::sphere,
+                                   LightShape::distant, LightShape::cylinder}) {
         for (const bool twoSided : {false, true}) {
             const Scene scene = withLight(makeBuiltin("two-boxes"), [&](Light& light) {
                 light.shape.shape = shape;
+                light.shape.length_m = 1.2f;
                 light.shape.radius_m = 0.3f;
                 light.shape.angle_rad = 0.1f;
                 light.shape.twoSided = twoSided;
@@ -104,6 +106,59 @@ TEST_P(Contract, LightOfSizeZeroIsAHardShadow) {
     for (const char* builtin : {"primitives", "two-boxes", "torus"}) {
         const Scene scene = withLight(makeBuiltin(builtin), shrinkToPoint);
         EXPECT_LE(shareOfDifferentPixels(truth(scene), render(name(), scene), 0.5f), 0.02) << builtin;
+    }
+}
+
+Scene withTube(Scene scene, float length_m, float radius_m) {
+    return withLight(std::move(scene), [=](Light& light) {
+        light.shape.shape = LightShape::cylinder;
+        light.shape.length_m = length_m;
+        light.shape.radius_m = radius_m;
+    });
+}
+
+TEST_P(Contract, TubesOfNoSizeAreHardShadows) {
+    const Scene sphere = withLight(makeBuiltin("two-boxes"), [](Light& light) {
+        light.shape.shape = LightShape::sphere;
+        light.shape.radius_m = 0;
+    });
+    const LightResult hard = render(name(), sphere);
+    EXPECT_EQ(render(name(), withTube(sphere, 0, 0)).visibility.values, hard.visibility.values);
+    EXPECT_LE(shareOfDifferentPixels(truth(sphere), render(name(), withTube(sphere, 1e-3f, 1e-4f)), 0.5f),
+              0.02);
+}
+
+TEST_P(Contract, TubesAreLitWithoutCastersAndAlikeHoweverTheyAreTurnedAboutTheirAxis) {
+    const Scene tube = withTube(makeBuiltin("two-boxes"), 0.8f, 0.05f);
+    const Scene empty = withoutCasters(tube);
+    const LightResult lit = render(name(), empty, defaultSize, quick());
+    const LightResult ofCenter = truth(withTube(withLight(empty, shrinkToPoint), 0, 0), defaultSize, 2);
+    for (std::size_t i = 0; i < lit.visibility.values.size(); ++i) {
+        if (ofCenter.visibility.values[i] != 1) continue;
+        ASSERT_NEAR(lit.visibility.values[i], 1, 1e-6) << "value " << i;
+    }
+    const LightResult one = render(name(), tube, defaultSize, quick());
+    const LightResult turned = render(name(),
+                                      withLight(tube,
+                                                [](Light& light) {
+                                                    auto& columns = light.shape.worldFromLight.columns;
+                                                    std::swap(columns[1], columns[2]);
+                                                    for (float& value : columns[1]) value = -value;
+                                                }),
+                                      defaultSize, quick());
+    EXPECT_LE(shareOfDifferentPixels(one, turned, 0.05f), 0.005);
+}
+
+TEST_P(Contract, TubesHaveTheRampOfAHalfPlane) {
+    // As long as the scene's rect is wide, across the edge: the same ramp along it.
+    constexpr PictureSize size{160, 90};
+    const Scene scene = withTube(halfPlaneFromAbove(), 1, 0.02f);
+    const LightResult result = render(name(), scene, size);
+    for (int x = 0; x < size.width_px; ++x) {
+        const float visibility = result.visibility.at(x, size.height_px / 2);
+        const double posX = halfPlaneX(x, size);
+        EXPECT_TRUE(posX > -0.6 || visibility <= 0.05f) << visibility << " at x = " << posX << " m, in umbra";
+        EXPECT_TRUE(posX < 0.6 || visibility >= 0.95f) << visibility << " at x = " << posX << " m, lit";
     }
 }
 

@@ -30,6 +30,9 @@ std::string describeShape(const AreaLight& shape) {
                                shape.twoSided ? ", two-sided" : "");
         case LightShape::sphere:
             return fmt::format("SphereLight of radius {:g} m", shape.radius_m);
+        case LightShape::cylinder:
+            return fmt::format("CylinderLight of length {:g} m and radius {:g} m", shape.length_m,
+                               shape.radius_m);
         case LightShape::distant:
             return fmt::format("DistantLight of {:g} degrees", shape.angle_rad * degrees);
     }
@@ -54,6 +57,10 @@ std::string describePlace(const AreaLight& shape, const glm::dmat4& fileFromWorl
     const int digits = fileFromWorld == glm::dmat4(1) ? 3 : 9;
     const std::string place =
         fmt::format("at ({:.{}g}, {:.{}g}, {:.{}g})", at.x, digits, at.y, digits, at.z, digits);
+    if (shape.shape == LightShape::cylinder) {
+        const glm::dvec3 along = glm::normalize(glm::dvec3(fileFromLight[0]));
+        return fmt::format("{} along ({:.3g}, {:.3g}, {:.3g})", place, along.x, along.y, along.z);
+    }
     return shape.shape == LightShape::sphere ? place : place + " " + direction;
 }
 

@@ -20,8 +20,9 @@ namespace penumbra {
 
 /// The answer: visibility in [0, 1], 1 where the whole light is seen or the pixel shows no surface, 0 in
 /// umbra. The fraction is of the light's emitting area above the surface's horizon (a distant light's and a
-/// sphere's: of the solid angle that they show), with no cosine and no distance weight. Where none of the
-/// light is above the horizon it is 0.
+/// sphere's: of the solid angle that they show; a cylinder's: of its outline in the plane through its two
+/// outer lines as seen from there), with no cosine and no distance weight. Where none of the light is above
+/// the horizon it is 0.
 ///
 /// A buffer that was moved from can be destroyed and assigned to; all else throws Error::Kind::badArgument.
 class PENUMBRA_API VisibilityBuffer {
@@ -129,6 +130,11 @@ class PENUMBRA_API Technique {
     /// Whether `render` takes points in place of a picture (View::isOfPoints). Where it does not, it throws
     /// Error::Kind::badArgument for them.
     virtual bool answersAtPoints() const { return false; }
+
+    /// Whether `render` answers for LightShape::cylinder as it is. Where it does not, it takes a flat strip
+    /// for it, as long and as wide, that shines both ways and is turned to the middle of the casters' boxes;
+    /// a warning in the log says so once.
+    virtual bool answersTubes() const { return false; }
 
     /// Visits the intermediate buffers of the last render.
     virtual void inspect(InspectionVisitor&) const {}

@@ -76,14 +76,15 @@ Technique& Automatic::take(std::size_t step) {
     return taken;
 }
 
-/// Of those that answer at points the cheapest that keeps the error: a dearer one errs less.
-Technique& Automatic::takeForPoints() {
+/// Of those that answer `what` the cheapest that keeps the error: a dearer one errs less.
+Technique& Automatic::takeOneThat(bool (Technique::*answers)() const, const char* what) {
     for (std::size_t step = keeper_.wanted() + 1; step-- > 0;) {
         Technique& technique = take(step);
-        if (technique.answersAtPoints()) return technique;
+        if ((technique.*answers)()) return technique;
     }
-    throw Error(Error::Kind::badArgument, "auto: no technique answers at points with max_error " +
-                                              shortest(maxError_) + ": take another than auto");
+    throw Error(Error::Kind::badArgument, std::string("auto: no technique answers ") + what +
+                                              " with max_error " + shortest(maxError_) +
+                                              ": take another than auto");
 }
 
 void Automatic::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
@@ -96,8 +97,12 @@ void Automatic::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     if (hasBudget && frames_.begins(inputs)) endFrame();
     keeper_.want(maxError_, budget_ms_);
     // Points have no steady state whose time could be kept.
-    if (inputs.view.isOfPoints) return takeForPoints().render(inputs, out);
-    Technique& technique = take(keeper_.current());
+    if (inputs.view.isOfPoints)
+        return takeOneThat(&Technique::answersAtPoints, "at points").render(inputs, out);
+    const bool isTube = inputs.light.shape == LightShape::cylinder;
+    Technique& technique = isTube && !take(keeper_.current()).answersTubes()
+                               ? takeOneThat(&Technique::answersTubes, "tubes")
+                               : take(keeper_.current());
     if (hasBudget) {
         measure(inputs, out, technique);
     } else {

@@ -33,12 +33,13 @@ class Automatic final : public Technique {
     void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
     /// Through those that do.
     bool answersAtPoints() const override { return true; }
+    bool answersTubes() const override { return true; }
     void inspect(InspectionVisitor& visitor) const override;
     Statistics statistics() const override;
 
   private:
     Technique& take(std::size_t step);
-    Technique& takeForPoints();
+    Technique& takeOneThat(bool (Technique::*answers)() const, const char* what);
     Technique& technique(std::string_view name) const;  ///< one that was made
     void measure(const ShadowInputs& inputs, VisibilityBuffer& out, Technique& technique);
     void endFrame();

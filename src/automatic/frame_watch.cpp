@@ -13,14 +13,14 @@ namespace {
 /// The same light, or what has become of it a frame later.
 bool areOne(const AreaLight& a, const AreaLight& b) {
     const auto form = [](const AreaLight& light) {
-        return std::tuple(light.shape, light.width_m, light.height_m, light.radius_m, light.angle_rad,
-                          light.twoSided, light.radianceTexture);
+        return std::tuple(light.shape, light.width_m, light.height_m, light.length_m, light.radius_m,
+                          light.angle_rad, light.twoSided, light.radianceTexture);
     };
     if (form(a) != form(b)) return false;
     const glm::mat4 from = std::bit_cast<glm::mat4>(a.worldFromLight);
     const glm::mat4 to = std::bit_cast<glm::mat4>(b.worldFromLight);
     if (a.shape == LightShape::distant) return glm::distance(from[2], to[2]) <= a.angle_rad;
-    return glm::distance(from[3], to[3]) <= std::max({a.width_m, a.height_m, 2 * a.radius_m});
+    return glm::distance(from[3], to[3]) <= std::max({a.width_m, a.height_m, a.length_m, 2 * a.radius_m});
 }
 
 }  // namespace

@@ -86,8 +86,9 @@ bool isSize(float value) {
 
 void checkLight(const AreaLight& light) {
     requireRotation(light.worldFromLight, "AreaLight: worldFromLight");
-    if (!isSize(light.width_m) || !isSize(light.height_m) || !isSize(light.radius_m))
-        refuse("AreaLight:", "width_m, height_m and radius_m must be finite and not negative");
+    if (!isSize(light.width_m) || !isSize(light.height_m) || !isSize(light.length_m) ||
+        !isSize(light.radius_m))
+        refuse("AreaLight:", "width_m, height_m, length_m and radius_m must be finite and not negative");
     // Written so that a NaN, which compares false with everything, is refused too.
     if (!(light.angle_rad >= 0 && light.angle_rad <= 3.1415927f))
         refuse("AreaLight:", "angle_rad must lie in [0, pi]: radians, not degrees");

@@ -8,6 +8,8 @@
 #include "src/device/visibility_internals.h"
 #include "src/geometry/caster_checks.h"
 #include "src/hosting/diagnose_in_scope.h"
+#include "src/techniques/common/light_constants.h"
+#include "src/techniques/common/tube_stand_in.h"
 #include "src/techniques/common/view_constants.h"
 
 namespace penumbra {
@@ -35,7 +37,9 @@ void HostedTechnique::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
     const ReadableTexture depth(inputs.view.depthTexture), normals(inputs.view.normalTexture),
         shadingNormals(inputs.view.shadingNormalTexture), receivers(inputs.view.receiverTexture);
     VisibilityBuffer& written = plain(out);
-    technique_->render({view_.prepare(inputs.view, inputs.casters), inputs.light, inputs.casters}, written);
+    warnOfTube(inputs.light);
+    technique_->render(
+        {view_.prepare(inputs.view, inputs.casters), lightFor(*technique_, inputs), inputs.casters}, written);
     deliver(written, out);
     // Whatever the host does with it next.
     internalsOf(device_).shaders.order()->makeAllVisible();
@@ -56,6 +60,14 @@ void HostedTechnique::warnOfPolygonOffset(const PolygonOffset& ofHost, const Vie
         LogLevel::warning,
         "GL_POLYGON_OFFSET_FILL is on: if the depths were drawn with it, state it in "
         "View::polygonOffset, or surfaces lie behind themselves and are dark");
+}
+
+void HostedTechnique::warnOfTube(const AreaLight& light) {
+    if (light.shape != LightShape::cylinder || answersTubes() || !hasSize(light)) return;
+    if (std::exchange(hasWarnedOfTube_, true)) return;
+    internalsOf(device_).log.write(LogLevel::warning,
+                                   "this technique takes tubes for flat strips that face the middle of the "
+                                   "casters: exact and auto answer them as they are");
 }
 
 VisibilityBuffer& HostedTechnique::plain(VisibilityBuffer& out) {

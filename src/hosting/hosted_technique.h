@@ -18,12 +18,14 @@ class HostedTechnique final : public Technique {
     void describe(ParameterVisitor& visitor) override;
     void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
     bool answersAtPoints() const override { return technique_->answersAtPoints(); }
+    bool answersTubes() const override { return technique_->answersTubes(); }
     void inspect(InspectionVisitor& visitor) const override;
     Statistics statistics() const override;
 
   private:
     void diagnoseOnce(const ShadowInputs& inputs);
     void warnOfPolygonOffset(const PolygonOffset& ofHost, const View& view);
+    void warnOfTube(const AreaLight& light);
     VisibilityBuffer& plain(VisibilityBuffer& out);
     void deliver(const VisibilityBuffer& written, const VisibilityBuffer& out);
 
@@ -34,6 +36,7 @@ class HostedTechnique final : public Technique {
         detour_;  ///< for rectangles of the host's textures, and formats of its own
     std::optional<TextureCopy> copy_;
     bool isDiagnosed_ = false;
+    bool hasWarnedOfTube_ = false;
 };
 
 }  // namespace penumbra

@@ -127,6 +127,89 @@ TEST_F(UnshadowedTest, SphereAndDistantAreConesOfDirections) {
     }
 }
 
+/// The same of a tube along X, over its side.
+double sumOverTube(const Case& c) {
+    constexpr int n = 600;
+    const glm::dvec3 pos(c.pos), normal(c.normal);
+    const double length = 2.0 * c.size.x, radius = c.size.z;
+    double sum = 0;
+    for (int i = 0; i < n; ++i) {
+        const double angle = 2 * glm::pi<double>() * (i + 0.5) / n;
+        const glm::dvec3 outward(0, std::cos(angle), std::sin(angle));
+        for (int j = 0; j < n; ++j) {
+            const glm::dvec3 point = radius * outward + glm::dvec3(length * ((j + 0.5) / n - 0.5), 0, 0);
+            const glm::dvec3 towards = point - pos;
+            const double d2 = glm::dot(towards, towards);
+            sum += std::max(0.0, glm::dot(normal, towards)) * std::max(0.0, -glm::dot(outward, towards)) /
+                   (d2 * d2);
+        }
+    }
+    return sum * length * 2 * glm::pi<double>() * radius / (double(n) * n);
+}
+
+/// Of a tube's end at the distance d over a surface that faces its axis, l long from there on: what of a
+/// hemisphere's irradiance it gives (D. C. Hamilton, W. R. Morgan, Radiant-interchange configuration factors,
+/// NACA TN 2836, 1952).
+double tubeFactor(double l, double r, double d) {
+    const double D = d / r, L = l / r, A = (D + 1) * (D + 1) + L * L, B = (D - 1) * (D - 1) + L * L;
+    const double pi = glm::pi<double>();
+    return std::atan(L / std::sqrt(D * D - 1)) / (pi * D) +
+           L / pi *
+               ((A - 2 * D) / (D * std::sqrt(A * B)) * std::atan(std::sqrt(A * (D - 1) / (B * (D + 1)))) -
+                std::atan(std::sqrt((D - 1) / (D + 1))) / D);
+}
+
+TEST_F(UnshadowedTest, TubesAreWithinHalfAPercentOfTheirClosedForm) {
+    constexpr float shape = float(LightShape::cylinder);
+    std::vector<Case> cases;
+    std::vector<double> expected;
+    for (const double radius : {0.004, 0.013, 0.1, 0.5}) {
+        for (const double away : {1.05, 1.3, 2.0, 5.0, 30.0, 200.0}) {  // in radii
+            for (const double length : {0.3, 1.2, 6.0}) {
+                const double d = away * radius;
+                // A receiver under the middle, and one under an end.
+                for (const double x : {0.0, 0.5 * length}) {
+                    cases.push_back(
+                        {glm::vec4(x, 0, -d, shape), {0, 0, 1, 0}, glm::vec4(0.5 * length, 0, radius, 0)});
+                    expected.push_back(glm::pi<double>() *
+                                       (tubeFactor(0.5 * length + x, radius, d) +
+                                        (x == 0 ? tubeFactor(0.5 * length, radius, d) : 0)));
+                }
+            }
+        }
+    }
+    evaluate(cases);
+    double worst = 0;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        worst = std::max(worst, std::abs(cases[i].normal.w / expected[i] - 1));
+        EXPECT_NEAR(cases[i].normal.w / expected[i], 1, 0.005)
+            << "radius " << cases[i].size.z << ", " << -cases[i].pos.z << " m away, half of it "
+            << cases[i].size.x << " m long";
+    }
+    RecordProperty("worst", std::to_string(worst));
+
+    cases = randomCases(LightShape::cylinder);
+    evaluate(cases);
+    for (const Case& c : cases) {
+        // Its own irradiance: of the sum of all that a receiver here could get.
+        const double sum = sumOverTube(c);
+        EXPECT_NEAR(c.normal.w, sum, 0.005 * sum + 1e-3);
+    }
+    // As far away as this it is a point whose candela go with the sine to its axis; turned about it, the
+    // same.
+    cases = {{{0, 0, -100, shape}, {0, 0, 1, 0}, {0.5f, 0, 0.1f, 0}},
+             {{0, 100, 0, shape}, {0, -1, 0, 0}, {0.5f, 0, 0.1f, 0}},
+             {{-60, 0, -80, shape}, {0.6f, 0, 0.8f, 0}, {0.5f, 0, 0.1f, 0}},
+             {{-60, 48, -64, shape}, {0, 0, 1, 0}, {0.5f, 0, 0.1f, 0}},
+             {{3, 0.05f, 0, shape}, {-1, 0, 0, 0}, {0.5f, 0, 0.1f, 0}}};
+    evaluate(cases);
+    EXPECT_NEAR(cases[0].normal.w, 0.2 * 1e-4, 1e-3 * 0.2e-4);
+    EXPECT_NEAR(cases[1].normal.w, cases[0].normal.w, 1e-3 * 0.2e-4);
+    EXPECT_NEAR(cases[2].normal.w, 0.8 * 0.2e-4, 1e-3 * 0.2e-4);
+    EXPECT_NEAR(cases[3].normal.w, 0.64 * 0.8 * 0.2e-4, 1e-3 * 0.2e-4);
+    EXPECT_EQ(cases[4].normal.w, 0) << "its ends are dark";
+}
+
 using FrameTest = TechniqueTest;
 
 /// What a white floor reflects under a light is known in closed form.
@@ -277,6 +360,37 @@ double summedLux(const Light& light) {
     return sum / area * (isLuminaire ? 1 : area_m2);
 }
 
+/// The same of a tube: candela by the share of what it shows from the floor's middle, luminance over its
+/// side.
+double summedLuxOfTube(const Light& light) {
+    constexpr int n = 400;
+    const glm::dmat4 worldFromLight = fromPenumbra(light.shape.worldFromLight);
+    const glm::dvec3 pos(glm::inverse(worldFromLight) * glm::dvec4(0, 0, 0, 1));
+    const glm::dvec3 normal = glm::transpose(glm::dmat3(worldFromLight)) * glm::dvec3(0, 1, 0);
+    const glm::dmat3 turn(glm::rotate(glm::dmat4(1), -double(light.profile->turn_rad), glm::dvec3(0, 0, 1)));
+    const bool isLuminaire = light.emission.unit == Emission::Unit::candela;
+    const double length = light.shape.length_m, radius = light.shape.radius_m;
+    const double away = std::hypot(pos.y, pos.z), outermost = std::acos(radius / away);
+    const glm::dvec3 nearest = glm::dvec3(0, pos.y, pos.z) / away,
+                     aside = glm::cross(nearest, glm::dvec3(1, 0, 0));
+    double sum = 0, share = 0;
+    for (int i = 0; i < n; ++i) {
+        const double angle = outermost * (2 * (i + 0.5) / n - 1);
+        const glm::dvec3 outward = std::cos(angle) * nearest + std::sin(angle) * aside;
+        const double width = std::cos(angle);  // of a line's as it looks from far off
+        for (int j = 0; j < n; ++j) {
+            const glm::dvec3 towards =
+                radius * outward + glm::dvec3(length * ((j + 0.5) / n - 0.5), 0, 0) - pos;
+            const glm::dvec3 direction = glm::normalize(towards);
+            const double cosine = std::max(0.0, glm::dot(normal, direction)) / glm::dot(towards, towards);
+            const double part = isLuminaire ? width : std::max(0.0, -glm::dot(outward, direction));
+            sum += light.profile->profile->grid.at(turn * -direction) * cosine * part;
+            share += width;
+        }
+    }
+    return isLuminaire ? sum / share : sum * length * 2 * outermost * radius / (double(n) * n);
+}
+
 double centerLux(const Light& light) {
     return glm::pi<double>() * centerRadiance_nits(whiteFloorUnder(light));
 }
@@ -300,13 +414,16 @@ TEST_F(FrameTest, LuminairesAreCandelaFromAfar) {
 TEST_F(FrameTest, ProfilesShapeLightsOfAnyShape) {
     const AreaLight shapes[] = {{.shape = LightShape::rect, .width_m = 1.2f, .height_m = 0.3f},
                                 {.shape = LightShape::disk, .radius_m = 0.5f},
-                                {.shape = LightShape::sphere, .radius_m = 0.3f}};
+                                {.shape = LightShape::sphere, .radius_m = 0.3f},
+                                {.shape = LightShape::cylinder, .length_m = 1.2f, .radius_m = 0.013f},
+                                {.shape = LightShape::cylinder, .length_m = 0.8f, .radius_m = 0.2f}};
     for (const AreaLight& shape : shapes)
         for (const bool isLuminaire : {true, false})
             for (const double height_m : {0.5, 1.0, 2.0, 5.0})
                 for (const double beside_m : {0.0, 0.7}) {
                     const Light light = profiledLight(shape, isLuminaire, height_m, beside_m);
-                    const double right = summedLux(light);
+                    const double right =
+                        shape.shape == LightShape::cylinder ? summedLuxOfTube(light) : summedLux(light);
                     EXPECT_NEAR(centerLux(light), right, 0.02 * right)
                         << int(shape.shape) << " " << isLuminaire << " " << height_m << " " << beside_m;
                 }

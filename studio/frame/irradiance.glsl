@@ -30,6 +30,7 @@ float irradianceBeforeCone(vec3 pos, vec3 normal) {
         float distance = length(pos);
         return distance > 0.0 ? coneIrradiance(-pos / distance, normal, min(1.0, light.radius_m / distance)) : 0.0;
     }
+    if (shape == shapeCylinder) return tubeIrradiance(pos, normal, light.halfSize_m.x, light.radius_m);
     return coneIrradiance(vec3(0.0, 0.0, 1.0), normal, sin(light.halfAngle_rad));
 }
 

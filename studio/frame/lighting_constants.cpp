@@ -5,9 +5,14 @@
 
 #include "penumbra/light_plane.h"
 #include "studio/scene/profiles/light_profile.h"
+#include "studio/scene/profiles/luminaire.h"
 
 namespace penumbra::studio {
 namespace {
+
+static_assert(int(LightShape::rect) == shapeRect && int(LightShape::disk) == shapeDisk &&
+              int(LightShape::sphere) == shapeSphere && int(LightShape::distant) == shapeDistant &&
+              int(LightShape::cylinder) == shapeCylinder);
 
 bool hasSize(const AreaLight& shape) {
     switch (shape.shape) {
@@ -18,6 +23,8 @@ bool hasSize(const AreaLight& shape) {
             return shape.radius_m > 0;
         case LightShape::distant:
             return shape.angle_rad > 0;
+        case LightShape::cylinder:
+            return shape.length_m > 0 && shape.radius_m > 0;
     }
     return false;
 }
@@ -35,7 +42,7 @@ ProfileConstants profileConstants(const Light& light) {
         .firstPlane_rad = float(glm::radians(grid.firstPlane_deg)),
         .isMirrored = grid.horizontals_deg.front() == 0,
         .isLuminaire = light.profile->isLuminaire,
-        .turn_rad = light.profile->turn_rad,
+        .turn_rad = turnOfC0_rad(*light.profile),
         .angleScale = light.profile->angleScale,
         .factor = light.profile->factor * light.profile->tilt,
     };
@@ -52,7 +59,8 @@ LightingConstants lightingConstants(const Light& light, const glm::dmat4& worldF
         .lightFromWorld = glm::inverse(worldFromLight),
         .emission = light.emission.value,
         .halfAngle_rad = 0.5f * shape.angle_rad,
-        .halfSize_m = {0.5f * shape.width_m, 0.5f * shape.height_m},
+        .halfSize_m = shape.shape == LightShape::cylinder ? glm::vec2(0.5f * shape.length_m)
+                                                          : 0.5f * glm::vec2(shape.width_m, shape.height_m),
         .coneCosines = cone,
         .radius_m = shape.radius_m,
         .shape = int(shape.shape),

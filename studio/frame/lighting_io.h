@@ -4,6 +4,7 @@
 #define PENUMBRA_LIGHTING_IO_H
 
 #include "src/gl/shared_types.h"
+#include "studio/frame/light_shapes_io.h"
 
 #ifdef __cplusplus
 namespace penumbra::studio {
@@ -32,10 +33,10 @@ SHARED_STRUCT LightingConstants {
     mat4 lightFromWorld;  // rotates normals
     vec3 emission;        // nits, candela or lux
     float halfAngle_rad;  // distant lights
-    vec2 halfSize_m;      // rects
+    vec2 halfSize_m;      // rects; tubes: half the length, twice
     vec2 coneCosines;     // of a spot's inner and outer half angle; -2 where there is no cone
-    float radius_m;       // disks and spheres
-    int shape;            // penumbra::LightShape
+    float radius_m;       // disks, spheres, tubes
+    int shape;            // shapeRect, ...
     bool32 isTwoSided;
     bool32 isPoint;  // of size zero: emission in candela or lux
     bool32 isTextured;

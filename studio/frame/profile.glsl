@@ -117,6 +117,33 @@ float profiledDisk(ProfileConstants profile, vec3 pos, vec3 normal, float radius
     return sum / float(rings * sectors);
 }
 
+// Over what a tube shows: points along it, on lines that look alike far from each other.
+float profiledTube(ProfileConstants profile, vec3 pos, vec3 normal, float halfLength_m, float radius_m) {
+    SeenTube seen = seeTube(pos, radius_m);
+    if (seen.away <= radius_m) return 0.0;
+    float distance_m = length(vec2(max(abs(pos.x) - halfLength_m, 0.0), seen.away - radius_m));
+    ivec2 points = ivec2(pointsAlong(2.0 * halfLength_m, distance_m), pointsAlong(2.0 * radius_m, distance_m));
+    float along2 = seen.away * seen.plane, beyond = (seen.away - radius_m) * (seen.away + radius_m);
+    float sum = 0.0, whole = 0.0;
+    for (int y = 0; y < points.y; ++y) {
+        // Where the way to a line of the outline meets the tube, as a share of it: the line looks longer by as much.
+        float aside = (2.0 * (float(y) + 0.5) / float(points.y) - 1.0) * seen.halfWidth;
+        float length2 = seen.plane * seen.plane + aside * aside;
+        float share = beyond / (along2 + sqrt(max(along2 * along2 - length2 * beyond, 0.0)));
+        vec3 line = vec3(0.0, pos.yz) + share * (seen.plane * seen.ahead + aside * seen.aside);
+        for (int x = 0; x < points.x; ++x) {
+            float along = (2.0 * (float(x) + 0.5) / float(points.x) - 1.0) * halfLength_m;
+            vec3 point = line + vec3(along, 0.0, 0.0);
+            float part = fromPoint(profile, pos, normal, point, false);
+            // Of candela by the outline's share; of luminance as of what lies in its plane.
+            sum += part * (profile.isLuminaire ? 1.0 / share : seen.plane * share * share / distance(point, pos));
+            whole += 1.0 / share;
+        }
+    }
+    return profile.isLuminaire ? sum / whole
+                               : sum / float(points.x * points.y) * 4.0 * halfLength_m * seen.halfWidth;
+}
+
 float profiledIrradiance(ProfileConstants profile, int shape, bool isPoint, vec2 halfSize_m, float radius_m, vec3 pos,
                          vec3 normal) {
     if (isPoint) return fromPoint(profile, pos, normal, vec3(0.0), false);
@@ -127,6 +154,7 @@ float profiledIrradiance(ProfileConstants profile, int shape, bool isPoint, vec2
                                   vec3(0.0, 1.0, 0.0), !profile.isLuminaire);
         return profile.isLuminaire ? mean : pi * radius_m * radius_m * mean;
     }
+    if (shape == shapeCylinder) return profiledTube(profile, pos, normal, halfSize_m.x, radius_m);
     // A sphere shows a disk from any side. Its luminance times the disk's area is candela, as a luminaire's.
     float distance = length(pos);
     if (distance <= radius_m) return 0.0;

@@ -21,6 +21,8 @@ void main() {
         result = diskIrradiance(c.pos.xyz, c.normal.xyz, c.size.z);
     } else if (c.pos.w == float(shapeSphere)) {
         result = coneIrradiance(-normalize(c.pos.xyz), c.normal.xyz, min(1.0, c.size.z / length(c.pos.xyz)));
+    } else if (c.pos.w == float(shapeCylinder)) {
+        result = tubeIrradiance(c.pos.xyz, c.normal.xyz, c.size.x, c.size.z);
     } else {
         result = coneIrradiance(vec3(0.0, 0.0, 1.0), c.normal.xyz, sin(c.size.w));
     }

@@ -69,7 +69,7 @@ double BruteForceScene::visibility(const dvec3& posWorld, const dvec3& normalWor
         for (int column = 0; column < gridSize; ++column) {
             const double s = (column + 0.5) / gridSize, t = (row + 0.5) / gridSize, turn = 2 * pi * s;
             dvec3 direction{0};
-            double end = 1;
+            double end = 1, part = 1;
             switch (light.shape) {
                 case LightShape::rect:
                     direction = toCenter + (s - 0.5) * light.width_m * x + (t - 0.5) * light.height_m * y;
@@ -92,12 +92,28 @@ double BruteForceScene::visibility(const dvec3& posWorld, const dvec3& normalWor
                     direction = around(z, 1 - t * (1 - std::cos(light.angle_rad / 2.0)), turn);
                     end = std::numeric_limits<double>::infinity();
                     break;
+                case LightShape::cylinder: {
+                    // The side of it that faces the receiver. Its parts count what they cover of the plane
+                    // through its two outer lines.
+                    const double away = glm::length(toCenter - glm::dot(toCenter, x) * x);
+                    const dvec3 ahead = (toCenter - glm::dot(toCenter, x) * x) / away;
+                    const double outermost = std::acos(light.radius_m / away);
+                    const double angle = outermost * (2 * t - 1);
+                    const dvec3 outward = -std::cos(angle) * ahead + std::sin(angle) * glm::cross(x, ahead);
+                    direction =
+                        toCenter + (s - 0.5) * double(light.length_m) * x + double(light.radius_m) * outward;
+                    // Its solid angle, over that of as much of the plane where one sees it.
+                    const double stretch =
+                        (away - light.radius_m * std::cos(outermost)) / glm::dot(direction, ahead);
+                    part = -glm::dot(outward, direction) * stretch * stretch * stretch;
+                    break;
+                }
             }
             const bool flat = light.shape == LightShape::rect || light.shape == LightShape::disk;
             if (glm::dot(normalWorld, direction) <= 0) continue;
             if (flat && !light.twoSided && glm::dot(direction, z) <= 0) continue;
-            whole += 1;
-            if (!occluded(posWorld, direction, end)) seen += 1;
+            whole += part;
+            if (!occluded(posWorld, direction, end)) seen += part;
         }
     }
     return whole > 0 ? seen / whole : 0;

@@ -74,6 +74,8 @@ TEST(BruteForce, AgreesOnTheVisibilityOfEveryShape) {
                                   roundAt(LightShape::disk, {0.3f, 0, 2}, 0.7f),
                                   roundAt(LightShape::sphere, {0, 0.4f, 2.2f}, 0.6f),
                                   AreaLight{.shape = LightShape::distant, .angle_rad = 0.5f}};
+    lights.push_back(tubeAt({0.2f, 0.1f, 2}, 1.4f, 0.05f));
+    lights.push_back(tubeAt({1.1f, 0.5f, 2}, 0.7f, 0.6f));  // seen past an end
     lights.push_back(lights[0]);
     lights.back().twoSided = true;
     // The rect stands upright and reaches through the horizon.

@@ -190,6 +190,70 @@ TEST(ClosedForm, C8_IrradianceOfADistantLight) {
     expectVisibility(Soup().disc({0, 0, 1}, {0, 0, 1}, 1), sky, {0, 0, 0}, std::sqrt(0.5));
 }
 
+TEST(ClosedForm, C11_HalfPlanesOverATube) {
+    // Across the tube: of a thin one, as of a rectangle.
+    const double a = 0.75, h = 1, H = 3, k = (H - h) / h;
+    const Soup across = Soup().rect(-far_m, 0, -far_m, far_m, float(h));
+    for (const double x : {-0.5, -0.37, -0.2, 0.0, 0.1, 0.3, 0.374, 0.5}) {
+        expectVisibility(across, tubeAt({0, 0, float(H)}, float(2 * a), 1e-4f), {float(x), 0, 0},
+                         std::clamp((a + k * x) / (2 * a), 0.0, 1.0));
+    }
+    // Along a thick one: a line at the angle of the slope s of the way there looks longer by what it is
+    // nearer than the plane through both outer lines.
+    const double r = 1.1, outermost = std::asin(r / H), plane = H - r * r / H;
+    const auto seenBeyond = [&](double slope) {
+        constexpr int steps = 4000;
+        const double most = std::tan(outermost);
+        double sum = 0;
+        for (int i = 0; i < steps; ++i) {
+            const double s = slope + (most - slope) * (i + 0.5) / steps, angle = std::atan(s);
+            const double near = H * std::cos(angle) - std::sqrt(r * r - std::pow(H * std::sin(angle), 2));
+            sum += plane / std::cos(angle) / near * (most - slope) / steps;
+        }
+        return sum;
+    };
+    for (const double edge : {-0.3, -0.1, 0.0, 0.2, 0.35}) {
+        const Soup along = Soup().rect(-far_m, far_m, -far_m, float(edge), float(h));
+        expectVisibility(along, tubeAt({0, 0, float(H)}, 0.5f, float(r)), {0, 0, 0},
+                         seenBeyond(edge / h) / seenBeyond(-std::tan(outermost)));
+    }
+}
+
+/// Of a tube's end at the distance d over a surface that faces its axis, l long from there on: what of a
+/// hemisphere's irradiance it gives (D. C. Hamilton, W. R. Morgan, Radiant-interchange configuration factors,
+/// NACA TN 2836, 1952).
+double tubeFactor(double l, double r, double d) {
+    const double D = d / r, L = l / r, A = (D + 1) * (D + 1) + L * L, B = (D - 1) * (D - 1) + L * L;
+    return std::atan(L / std::sqrt(D * D - 1)) / (pi * D) +
+           L / pi *
+               ((A - 2 * D) / (D * std::sqrt(A * B)) * std::atan(std::sqrt(A * (D - 1) / (B * (D + 1)))) -
+                std::atan(std::sqrt((D - 1) / (D + 1))) / D);
+}
+
+TEST(ClosedForm, C12_IrradianceOfATube) {
+    // Nothing of it is seen beyond x = 0.
+    const Soup blocker = Soup().rect(0, far_m, -far_m, far_m, 0.05f);
+    const ReferenceOptions options{.samples = 1024, .weight = ReferenceOptions::Weight::irradiance};
+    for (const auto& [r, d] : {std::pair{0.013, 1.0}, {0.2, 0.8}, {0.5, 0.8}}) {
+        const double seen = tubeFactor(0.9, r, d), hidden = tubeFactor(0.3, r, d);
+        expectVisibility(blocker, tubeAt({-0.3f, 0, float(d)}, 1.2f, float(r)), {0, 0, 0},
+                         seen / (seen + hidden), options);
+    }
+}
+
+TEST(ClosedForm, C13_TubesAreDarkAtTheirEndsAndWithin) {
+    const AreaLight tube = tubeAt({0, 0, 1}, 2, 0.3f);
+    const auto seen = [&](const glm::vec3& posWorld, const glm::vec3& normalWorld) {
+        return Soup()
+            .scene()
+            .trace(repeated(posWorld, normalWorld, 1, 1), tube, nullptr, {})
+            .visibility.values[0];
+    };
+    EXPECT_EQ(seen({3, 0, 1.2f}, {-1, 0, 0}), 0) << "before an end";
+    EXPECT_EQ(seen({0, 0, 1.1f}, {0, 0, 1}), 0) << "within";
+    EXPECT_EQ(seen({3, 0, 1.4f}, {-1, 0, 0}), 1) << "beside an end";
+}
+
 TEST(ClosedForm, C10_StripsAddUp) {
     const AreaLight light = rectAt({0, 0, 2}, 1, 1);
     Soup strips;

@@ -55,6 +55,7 @@ LightSampler::LightSampler(const AreaLight& light, const RadianceTexture* textur
     const auto size = [](float value) { return value > 0 ? value : 0.0f; };
     shape_.width_m = size(light.width_m);
     shape_.height_m = size(light.height_m);
+    shape_.length_m = size(light.length_m);
     shape_.radius_m = size(light.radius_m);
     shape_.angle_rad = std::min(size(light.angle_rad), pi_v<float>);
     switch (light.shape) {
@@ -63,6 +64,9 @@ LightSampler::LightSampler(const AreaLight& light, const RadianceTexture* textur
             break;
         case LightShape::distant:
             isPoint_ = shape_.angle_rad == 0;
+            break;
+        case LightShape::cylinder:
+            isPoint_ = shape_.length_m == 0 && shape_.radius_m == 0;
             break;
         default:
             isPoint_ = shape_.radius_m == 0;
@@ -126,6 +130,18 @@ LightSampler::FromReceiver::FromReceiver(const LightSampler& sampler, const glm:
             oneMinusCos_ = sine < 1 ? sine * sine / (1 + cosine) : 2.0f;
             break;
         }
+        case LightShape::cylinder: {
+            const glm::vec3 across = toCenter_ - glm::dot(toCenter_, light_.axisX_) * light_.axisX_;
+            away_ = glm::length(across);
+            emitsThisWay_ = away_ > shape.radius_m || light_.isPoint_;
+            axis_ = away_ > 0 ? across / away_ : light_.axisZ_;
+            across_ = glm::cross(axis_, light_.axisX_);
+            // Tangents from the receiver touch the circle at these places.
+            const float sine = shape.radius_m / away_;
+            toOuterLines_ = shape.radius_m * sine;
+            halfWidth_ = shape.radius_m * std::sqrt(std::max((1 - sine) * (1 + sine), 0.0f));
+            return;
+        }
     }
     across_ = perpendicularTo(axis_);
     along_ = glm::cross(axis_, across_);
@@ -143,6 +159,11 @@ bool LightSampler::FromReceiver::isAboveHorizon() const {
         case LightShape::disk:
             return emitsThisWay_ &&
                    center + shape.radius_m * std::hypot(across(light_.axisX_), across(light_.axisY_)) > 0;
+        case LightShape::cylinder:
+            return emitsThisWay_ &&
+                   center + shape.length_m / 2 * across(light_.axisX_) +
+                           shape.radius_m * std::hypot(across(light_.axisY_), across(light_.axisZ_)) >
+                       0;
         default:
             // The cone reaches its half-angle beyond a right angle with the normal.
             return oneMinusCos_ > 1 ||
@@ -151,8 +172,9 @@ bool LightSampler::FromReceiver::isAboveHorizon() const {
 }
 
 LightSample LightSampler::FromReceiver::sample(const glm::vec2& square) const {
-    const bool isFlat = light_.shape_.shape == LightShape::rect || light_.shape_.shape == LightShape::disk;
-    LightSample result = isFlat ? flat(square) : cone(square);
+    const LightShape shape = light_.shape_.shape;
+    const bool isFlat = shape == LightShape::rect || shape == LightShape::disk;
+    LightSample result = isFlat ? flat(square) : shape == LightShape::cylinder ? tube(square) : cone(square);
     // Written so that whatever is not a number is below the horizon, too.
     const bool aboveHorizon = glm::dot(normalWorld_, result.direction) > 0;
     if (!aboveHorizon || !emitsThisWay_ || !isFinite(result.direction)) result.weight = glm::vec3(0);
@@ -176,6 +198,31 @@ LightSample LightSampler::FromReceiver::flat(const glm::vec2& square) const {
         result.weight *= float(std::clamp(cosines / (distance2 * distance2), 0.0, 1e30));
     }
     return result;
+}
+
+/// What a tube shows is its outline in the plane through its two outer lines: a line along it at the place s
+/// across has there `stretch` times the tube's length, being nearer than that plane.
+LightSample LightSampler::FromReceiver::tube(const glm::vec2& square) const {
+    const AreaLight& shape = light_.shape_;
+    if (light_.isPoint_) return {toCenter_, false, glm::vec3(1)};
+    // Where the ray to the place (ahead, s) of that plane meets the circle first.
+    const float s = (2 * square.y - 1) * halfWidth_, ahead = away_ - toOuterLines_;
+    const float length2 = ahead * ahead + s * s, along = away_ * ahead;
+    const float beyond = (away_ - shape.radius_m) * (away_ + shape.radius_m);
+    const float root = std::sqrt(std::max(along * along - length2 * beyond, 0.0f));
+    const float share = beyond / (along + root);
+    const float stretch = 1 / share;
+    const float posLight = (square.x - 0.5f) * shape.length_m + glm::dot(toCenter_, light_.axisX_);
+    const glm::vec3 direction = share * (ahead * axis_ + s * across_) + posLight * light_.axisX_;
+    float weight = stretch;
+    if (light_.irradiance_) {
+        // As of a flat light in that plane: of the same luminance, it shows the same from here.
+        const double cosines = double(glm::dot(normalWorld_, direction)) * stretch * ahead;
+        const double distance2 =
+            glm::dot(glm::dvec3(direction), glm::dvec3(direction)) * double(stretch) * stretch;
+        weight *= float(std::clamp(cosines / (distance2 * distance2), 0.0, 1e30));
+    }
+    return {direction, false, glm::vec3(weight)};
 }
 
 LightSample LightSampler::FromReceiver::cone(const glm::vec2& square) const {

@@ -19,8 +19,8 @@ struct LightSample {
     glm::vec3 weight;     ///< what the part counts, per channel, >= 0; all zero where it counts nothing
 };
 
-/// Maps the unit square to a light as one receiver sees it, evenly in area (rect, disk) or in solid angle
-/// (sphere, distant).
+/// Maps the unit square to a light as one receiver sees it, evenly in area (rect, disk), in solid angle
+/// (sphere, distant), or along the tube and across what it shows (cylinder).
 class LightSampler {
   public:
     LightSampler(const AreaLight& light, const RadianceTexture* texture, ReferenceOptions::Weight weight);
@@ -28,7 +28,7 @@ class LightSampler {
     /// The light is a point or a single direction: every sample is the same.
     bool isPoint() const { return isPoint_; }
     int channels() const { return texture_ ? 3 : 1; }
-    /// Of rect and disk lights.
+    /// Of rect and disk lights alone.
     std::optional<LightPlane> plane() const;
 
     /// The light from one receiver.
@@ -44,6 +44,7 @@ class LightSampler {
       private:
         LightSample flat(const glm::vec2& square) const;
         LightSample cone(const glm::vec2& square) const;
+        LightSample tube(const glm::vec2& square) const;
 
         const LightSampler& light_;
         glm::vec3 normalWorld_;
@@ -51,9 +52,13 @@ class LightSampler {
         float distance_ = 0;  // to the sphere's centre
         bool emitsThisWay_ = true;
         // The cone of directions in which a sphere or distant light lies: its axis, two vectors across, and 1
-        // - cos of its half-angle, kept in this form because 1 - cos of a small angle would cancel.
+        // - cos of its half-angle, kept in this form because 1 - cos of a small angle would cancel. Of a tube
+        // axis_ is the way to its axis, the shortest one, and across_ its other side.
         glm::vec3 axis_{0}, across_{0}, along_{0};
         float oneMinusCos_ = 0;
+        // Of a tube: the way to its axis, from there to the plane through its two outer lines, and how far
+        // these are from that plane's middle.
+        float away_ = 0, toOuterLines_ = 0, halfWidth_ = 0;
     };
 
   private:

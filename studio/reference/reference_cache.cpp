@@ -87,7 +87,7 @@ ContentHash traceKey(const ReferenceScene& scene, const ReceiverImage& receivers
     if (!receivers.areFromDepth) hasher.add(int(receivers.areFromDepth));
     hasher.add(int(light.shape));
     hasher.addArray(light.worldFromLight.columns);
-    for (const float size : {light.width_m, light.height_m, light.radius_m, light.angle_rad})
+    for (const float size : {light.width_m, light.height_m, light.length_m, light.radius_m, light.angle_rad})
         hasher.add(size);
     hasher.add(int(light.twoSided));
     hasher.add(int(texture != nullptr));

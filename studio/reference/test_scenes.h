@@ -107,4 +107,12 @@ inline AreaLight roundAt(LightShape shape, const glm::vec3& posWorld, float radi
     return light;
 }
 
+/// A tube along X.
+inline AreaLight tubeAt(const glm::vec3& posWorld, float length_m, float radius_m) {
+    AreaLight light = lightAt(LightShape::cylinder, posWorld);
+    light.length_m = length_m;
+    light.radius_m = radius_m;
+    return light;
+}
+
 }  // namespace penumbra::studio

@@ -13,6 +13,7 @@
 
 #include "penumbra/light.h"
 #include "studio/image/image.h"
+#include "studio/scene/sun/sun_origin.h"
 
 namespace penumbra::studio {
 
@@ -107,10 +108,12 @@ struct LightProfile;
 struct ProfiledEmission {
     std::shared_ptr<const LightProfile> profile;  ///< never null
     bool isLuminaire = false;  ///< each part of the light sends the candela by its share of the area
-    float turn_rad = 0;        ///< of its C0, from the light's +X towards +Y
-    float angleScale = 0;      ///< UsdLux's shaping:ies:angleScale
-    float factor = 1;          ///< of its candela
-    float tilt = 1;            ///< another, of a luminaire: what it gives as it is tilted
+    /// The shape's X lies along the luminaire's Y, its Y against the luminaire's X: tubes along C90.
+    bool liesAlongY = false;
+    float turn_rad = 0;    ///< of its C0, from the light's, or the luminaire's, +X towards +Y
+    float angleScale = 0;  ///< UsdLux's shaping:ies:angleScale
+    float factor = 1;      ///< of its candela
+    float tilt = 1;        ///< another, of a luminaire: what it gives as it is tilted
 };
 
 struct Light {
@@ -124,6 +127,8 @@ struct Light {
     /// The emission (of a luminaire in candela, else as the unit says) is multiplied by the profile,
     /// direction by direction.
     std::optional<ProfiledEmission> profile;
+    /// A distant light that is the sun of a place and a time.
+    std::optional<SunOrigin> sun;
 };
 
 struct Camera {

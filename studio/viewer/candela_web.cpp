@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/viewer/candela_web.h"
 
-#include <bit>
-
 #include "studio/scene/profiles/light_profile.h"
+#include "studio/scene/profiles/luminaire.h"
 
 namespace penumbra::studio::viewer {
 
@@ -11,7 +10,7 @@ std::vector<std::vector<glm::vec3>> candelaWeb(const Light& light, const Bounds&
     const CandelaGrid& grid = light.profile->profile->grid;
     const double largest_cd = grid.largest();
     if (!(largest_cd > 0)) return {};
-    const glm::dmat4 worldFromLight(std::bit_cast<glm::mat4>(light.shape.worldFromLight));
+    const glm::dmat4 worldFromLight(worldFromLightOf(light));
     const double reach_m = bounds.radius() / 7, turn_deg = glm::degrees(double(light.profile->turn_rad));
     constexpr int step_deg = 3, betweenPlanes_deg = 45;
     std::vector<std::vector<glm::vec3>> lines;

@@ -12,8 +12,10 @@
 namespace penumbra::studio::viewer {
 namespace {
 
-static_assert(int(LightShape::rect) == shapeRect && int(LightShape::sphere) == shapeSphere &&
-              int(LightShape::distant) == shapeDistant);
+glm::vec2 halfSize_m(const AreaLight& light) {
+    if (light.shape == LightShape::cylinder) return glm::vec2(0.5f * light.length_m);
+    return 0.5f * glm::vec2(light.width_m, light.height_m);
+}
 
 gl::Texture mapTexture(const ColorTable& table, std::string_view label) {
     gl::Texture texture({.width_px = 256, .format = gl::Format::rgba8, .label = label});
@@ -137,7 +139,7 @@ void Canvas::lookAtLight(const FrameRenderer& frame, const AreaLight& light,
                                       .shape = int(light.shape),
                                       .eyeWorldForward = forward,
                                       .radius_m = light.radius_m,
-                                      .halfSize_m = 0.5f * glm::vec2(light.width_m, light.height_m),
+                                      .halfSize_m = halfSize_m(light),
                                       .halfAngle_rad = 0.5f * light.angle_rad})
         .bind("depthTexture", gl::TextureRef{.name = view.depthTexture})
         .bind("normals", gl::TextureRef{.name = view.normalTexture})

@@ -4,6 +4,7 @@
 #define PENUMBRA_CANVAS_IO_H
 
 #include "src/gl/shared_types.h"
+#include "studio/frame/light_shapes_io.h"
 
 #ifdef __cplusplus
 namespace penumbra::studio::viewer {
@@ -15,11 +16,6 @@ const int shownDifference = 1;
 const int shownError = 2;
 const int shownVisibility = 3;
 const int shownIlluminance = 4;
-
-// The values of penumbra::LightShape.
-const int shapeRect = 0;
-const int shapeSphere = 2;
-const int shapeDistant = 3;
 
 SHARED_STRUCT ComposeConstants {
     ivec2 size_px;
@@ -46,7 +42,7 @@ SHARED_STRUCT LightViewConstants {
     int shape;
     vec3 eyeWorldForward;
     float radius_m;
-    vec2 halfSize_m;      // of a rect
+    vec2 halfSize_m;      // of a rect; of a tube half its length, twice
     float halfAngle_rad;  // of a distant light
 };
 

@@ -32,6 +32,8 @@ float effect(const AreaLight& shape) {
         case LightShape::disk:
         case LightShape::sphere:
             return pi * shape.radius_m * shape.radius_m;
+        case LightShape::cylinder:
+            return 2 * shape.radius_m * shape.length_m;
         case LightShape::distant: {
             const float sine = std::sin(0.5f * shape.angle_rad);
             return pi * sine * sine;
@@ -82,8 +84,7 @@ std::vector<Light> throughText(const std::vector<SidecarLight>& lights) {
 
 /// A light as a file states it, but for the names of the files that it needs.
 SidecarLight stated(const Light& light) {
-    SidecarLight result{.light = light,
-                        .parentFromLight = std::bit_cast<glm::mat4>(light.shape.worldFromLight)};
+    SidecarLight result{.light = light, .parentFromLight = worldFromLightOf(light)};
     if (light.profile) {
         const ProfiledEmission& profile = *light.profile;
         result.profile = {.file = "profile" + extensionOf(*profile.profile),
@@ -160,15 +161,21 @@ void changeShape(Light& light, LightShape shape) {
     const bool wasDistant = area.shape == LightShape::distant;
     const float radius_m = area.shape == LightShape::rect ? 0.5f * std::sqrt(area.width_m * area.height_m)
                            : wasDistant                   ? distance_m * std::tan(0.5f * area.angle_rad)
-                                                          : area.radius_m;
+                           : area.shape == LightShape::cylinder ? 0.5f * area.length_m
+                                                                : area.radius_m;
+    constexpr float slenderness = 20;  // of a tube of T8, 26 mm across, of 0.6 m
     area.shape = shape;
     area.width_m = area.height_m = shape == LightShape::rect ? 2 * radius_m : 0;
-    area.radius_m = shape == LightShape::disk || shape == LightShape::sphere ? radius_m : 0;
+    area.length_m = shape == LightShape::cylinder ? 2 * radius_m : 0;
+    area.radius_m = shape == LightShape::disk || shape == LightShape::sphere ? radius_m
+                    : shape == LightShape::cylinder                          ? radius_m / slenderness
+                                                                             : 0;
     area.angle_rad = shape == LightShape::distant ? 2 * std::atan(radius_m / distance_m) : 0;
     if (shape != LightShape::rect) light.texture = -1;
     light.profile.reset();
+    light.sun.reset();
     if (shape == LightShape::distant) light.cone_rad.reset();
-    if (shape == LightShape::sphere || shape == LightShape::distant) area.twoSided = false;
+    if (shape != LightShape::rect && shape != LightShape::disk) area.twoSided = false;
     // Candela at a distance are lux of a distant light.
     const float toLux = (shape == LightShape::distant) == wasDistant ? 1.0f
                         : wasDistant                                 ? distance_m * distance_m
@@ -180,6 +187,7 @@ void changeShape(Light& light, LightShape shape) {
 
 void setSize(Light& light, float AreaLight::*size, float value) {
     if (light.profile && light.profile->isLuminaire) return;  // its size is its file's
+    light.sun.reset();
     const float before = effect(light.shape);
     light.shape.*size = value;
     const float now = effect(light.shape);

@@ -85,6 +85,8 @@ float AreaLight::*sizeAlong(const AreaLight& light, Gizmo::Axis axis) {
         case LightShape::disk:
         case LightShape::sphere:
             return &AreaLight::radius_m;
+        case LightShape::cylinder:
+            return axis == Gizmo::Axis::x ? &AreaLight::length_m : &AreaLight::radius_m;
         case LightShape::distant:
             return &AreaLight::angle_rad;
     }
@@ -96,9 +98,14 @@ float skyDistance_m(const Bounds& scene) {
     return 1.4f * std::max(scene.radius(), 1e-3f);
 }
 
+/// Whether that size is the whole extent, and not half of it.
+bool isWholeExtent(const AreaLight& light, Gizmo::Axis axis) {
+    return light.shape == LightShape::rect || (light.shape == LightShape::cylinder && axis == Gizmo::Axis::x);
+}
+
 /// Half the extent along an axis, as it is drawn.
 float halfExtent(const AreaLight& light, Gizmo::Axis axis, const Bounds& scene) {
-    if (light.shape == LightShape::rect) return 0.5f * light.*sizeAlong(light, axis);
+    if (isWholeExtent(light, axis)) return 0.5f * light.*sizeAlong(light, axis);
     if (light.shape == LightShape::distant) return skyDistance_m(scene) * std::tan(0.5f * light.angle_rad);
     return light.radius_m;
 }
@@ -143,6 +150,12 @@ std::vector<std::vector<glm::vec3>> outlineOf(const AreaLight& light, const Boun
     if (light.shape == LightShape::rect) {
         const glm::vec3 w = 0.5f * light.width_m * x, h = 0.5f * light.height_m * y;
         lines.push_back({place - w - h, place + w - h, place + w + h, place - w + h, place - w - h});
+    } else if (light.shape == LightShape::cylinder) {
+        const glm::vec3 end = 0.5f * light.length_m * x;
+        for (const glm::vec3& middle : {place - end, place + end})
+            lines.push_back(circle(middle, y, z, light.radius_m));
+        for (const glm::vec3& aside : {y, -y, z, -z})
+            lines.push_back({place - end + light.radius_m * aside, place + end + light.radius_m * aside});
     } else {
         const float radius_m = halfExtent(light, Gizmo::Axis::x, scene);
         lines.push_back(circle(place, x, y, radius_m));
@@ -151,7 +164,7 @@ std::vector<std::vector<glm::vec3>> outlineOf(const AreaLight& light, const Boun
             lines.push_back(circle(place, y, z, radius_m));
         }
     }
-    if (light.shape != LightShape::sphere) {
+    if (light.shape != LightShape::sphere && light.shape != LightShape::cylinder) {
         const float length_m = std::max(0.12f * scene.radius(), halfExtent(light, Gizmo::Axis::x, scene));
         lines.push_back({place, place - length_m * z});  // which way it shines
     }
@@ -182,7 +195,8 @@ std::vector<Gizmo::Handle> Gizmo::handles(const Light& light, Mode mode, const P
             const auto from = projection.pixelOf(place + armStart_px * scale * metresPerPixel * direction);
             const auto tip = projection.pixelOf(place + armLength_px * scale * metresPerPixel * direction);
             if (from && tip) handle.line_px = {*from, *tip};
-        } else if (axis == Axis::x || (axis == Axis::y && shape.shape == LightShape::rect)) {
+        } else if (axis == Axis::x ||
+                   (axis == Axis::y && sizeAlong(shape, axis) != sizeAlong(shape, Axis::x))) {
             const auto end = projection.pixelOf(place + halfExtent(shape, axis, scene) * direction);
             // Beyond the edge, so that a light of size zero can be taken hold of as well.
             const auto further = projection.pixelOf(
@@ -272,6 +286,7 @@ Light Gizmo::turned(const glm::vec2& cursor_px, const Projection& projection, co
     glm::mat4 matrix = glm::rotate(glm::mat4(1), angle_rad, axis) * matrixOf(light.shape);
     matrix[3] = matrixOf(light.shape)[3];
     setMatrix(light.shape, matrix);
+    light.sun.reset();  // it stands elsewhere now
     return light;
 }
 
@@ -283,7 +298,7 @@ Light Gizmo::resized(const glm::vec2& cursor_px, const Projection& projection, c
     const auto to = nearestAlong(place, axis, projection.rayThrough(cursor_px));
     if (!from || !to) return light;
     const float half_m = std::max(0.0f, halfExtent(light.shape, axis_, scene) + *to - *from);
-    const float size = light.shape.shape == LightShape::rect ? 2 * half_m
+    const float size = isWholeExtent(light.shape, axis_) ? 2 * half_m
                        : light.shape.shape == LightShape::distant
                            ? std::min(2 * std::atan(half_m / skyDistance_m(scene)), glm::pi<float>())
                            : half_m;

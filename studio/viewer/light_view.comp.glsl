@@ -24,6 +24,13 @@ float hitDistance(vec3 eye, vec3 direction) {
         float near = along - sqrt(h2);
         return near > 0.0 ? near : along + sqrt(h2);
     }
+    if (constants.shape == shapeCylinder) {
+        float across2 = dot(direction.yz, direction.yz), along = -dot(eye.yz, direction.yz);
+        float h2 = constants.radius_m * constants.radius_m * across2 - dot(eye.yz, eye.yz) * across2 + along * along;
+        if (h2 < 0.0 || across2 == 0.0) return miss;
+        float t = (along - sqrt(h2)) / across2;
+        return t > 0.0 && abs(eye.x + t * direction.x) <= constants.halfSize_m.x ? t : miss;
+    }
     if (direction.z == 0.0) return miss;
     float t = -eye.z / direction.z;
     vec2 hit = eye.xy + t * direction.xy;

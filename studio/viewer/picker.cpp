@@ -85,8 +85,10 @@ void Picker::lookAtLight(const Document& document, const Light& light) {
     const bool distant = shape.shape == LightShape::distant;
     const glm::vec3 target = distant ? eye + glm::vec3(worldFromLight[2]) : place;
     const float distance_m = std::max(glm::distance(eye, target), 1e-4f);
-    const float radius_m =
-        shape.shape == LightShape::rect ? 0.5f * std::hypot(shape.width_m, shape.height_m) : shape.radius_m;
+    const float radius_m = shape.shape == LightShape::rect ? 0.5f * std::hypot(shape.width_m, shape.height_m)
+                           : shape.shape == LightShape::cylinder
+                               ? std::hypot(0.5f * shape.length_m, shape.radius_m)
+                               : shape.radius_m;
     const float half_rad = distant ? 0.5f * shape.angle_rad : std::atan(radius_m / distance_m);
     const float fov_rad = std::clamp(2.6f * half_rad, glm::radians(2.0f), glm::radians(150.0f));
     if (distant) worldFromLight[3] = glm::vec4(eye, 1);  // it has no place; here numbers stay small

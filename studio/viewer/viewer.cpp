@@ -296,6 +296,7 @@ void Viewer::carryOut(const Requests& requests) {
     if (requests.quit) window_.requestClose();
     if (requests.open) open(*requests.open);
     if (requests.profile) loadProfile(*requests.profile);
+    if (requests.problem) say(*requests.problem);
     if (requests.frameAll) {
         session_.freeCamera().frame(session_.document().bounds(), place_.size.x / place_.size.y);
         session_.changedView();

@@ -62,17 +62,18 @@ Recipe::Part randomPart(Dice& dice, const Recipe& recipe) {
 
 Recipe::Lamp randomLamp(Dice& dice, const Recipe& recipe) {
     constexpr std::array shapes = {LightShape::rect, LightShape::disk, LightShape::sphere,
-                                   LightShape::distant};
-    Recipe::Lamp lamp{.shape = shapes[std::size_t(dice.below(4))], .aspect = dice.scaleBetween(0.25f, 1)};
+                                   LightShape::distant, LightShape::cylinder};
+    Recipe::Lamp lamp{.shape = shapes[std::size_t(dice.below(int(shapes.size())))],
+                      .aspect = dice.scaleBetween(0.25f, 1)};
     lamp.target = {dice.between(-0.5f, 0.5f), 0, dice.between(-0.5f, 0.5f)};
     if (recipe.setting == Recipe::Setting::room) {
         if (lamp.shape == LightShape::distant) lamp.shape = LightShape::rect;
         lamp.size_m = dice.between(0.1f, 1.2f);
-        lamp.flush = lamp.shape != LightShape::sphere && dice.chance(0.4f);
+        const bool isRound = lamp.shape == LightShape::sphere || lamp.shape == LightShape::cylinder;
+        lamp.flush = !isRound && dice.chance(0.4f);
         const float half = 0.25f * recipe.extent;
         lamp.place = {dice.between(-half, half), roomHeight, dice.between(-half, half)};
-        if (!lamp.flush)
-            lamp.place.y -= (lamp.shape == LightShape::sphere ? lamp.size_m : 0) + dice.between(0.01f, 0.5f);
+        if (!lamp.flush) lamp.place.y -= (isRound ? lamp.size_m : 0) + dice.between(0.01f, 0.5f);
         lamp.target = lamp.place - glm::vec3(0, 1, 0);
         return lamp;
     }
@@ -117,6 +118,8 @@ std::string_view nameOf(LightShape shape) {
             return "sphere";
         case LightShape::distant:
             return "distant";
+        case LightShape::cylinder:
+            return "cylinder";
     }
     return "";
 }
@@ -180,6 +183,10 @@ Scene cook(const Recipe& recipe) {
             break;
         case LightShape::sphere:
             builder.light(sphereLight("lamp", 0.5f * size_m, place, target, illuminance_lux));
+            break;
+        case LightShape::cylinder:
+            builder.light(
+                tubeLight("lamp", size_m, 0.25f * lamp.aspect * size_m, place, target, illuminance_lux));
             break;
         case LightShape::distant:
             builder.light(

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <bit>
 
+#include "studio/image/atomic_file.h"
 #include "studio/image/image_io.h"
+#include "studio/scene/builtin/placing.h"
+#include "studio/viewer/candela_web.h"
 #include "tests/viewer/viewer_fixture.h"
 
 namespace penumbra::studio::viewer {
@@ -167,6 +170,160 @@ TEST_F(ViewerTest, LightsMoveTurnAndGrowByHand) {
     const glm::vec2 a = rings.at(0).line_px.at(2) / size, b = rings.at(0).line_px.at(12) / size;
     drag(a.x, a.y, b.x, b.y);
     EXPECT_NE(session().document().moment().lights[0].shape.worldFromLight, direction);
+}
+
+TEST_F(ViewerTest, TubesAreEditedByHand) {
+    start("two-boxes");
+    session().editLights({rectLight("key", 1, 0.5f, {0.4f, 1.6f, 0.5f}, {0, 0, 0}, 700)});
+    session().freeCamera().frame({{-2, -1, -2}, {2, 3, 2}}, 0.5f);
+    session().changedView();
+    frames();
+    const Work before = session().work();
+    const auto light = [&]() -> const Light& { return session().document().moment().lights.at(0); };
+    clickWidget("shape", 0.3);
+    clickWidget("tube");
+    ASSERT_EQ(light().shape.shape, LightShape::cylinder);
+    EXPECT_GT(light().shape.length_m, 10 * light().shape.radius_m);
+    ASSERT_NE(widget("length (m)"), nullptr);
+
+    key("s");
+    const CanvasPlace& place = viewer().canvasPlace();
+    const glm::vec2 size(place.size.x, place.size.y);
+    for (const auto& [axis, extent] :
+         {std::pair{Gizmo::Axis::x, &AreaLight::length_m}, std::pair{Gizmo::Axis::y, &AreaLight::radius_m}}) {
+        const Projection projection(session().cameraView(), size);
+        const auto handles =
+            Gizmo::handles(light(), Gizmo::Mode::resize, projection, session().document().bounds(), 1);
+        const auto handle = std::ranges::find(handles, axis, &Gizmo::Handle::axis);
+        ASSERT_NE(handle, handles.end());
+        const glm::vec2 end = handle->line_px.back() / size;
+        const glm::vec2 along = glm::normalize(handle->line_px.back() - handle->line_px.front());
+        const float was = light().shape.*extent;
+        drag(end.x, end.y, end.x + 0.1 * along.x, end.y + 0.1 * along.y);
+        EXPECT_GT(light().shape.*extent, was + 0.05f) << int(axis);
+    }
+    const Work done = session().work();
+    const Image last = picture();
+    for (int step = 0; step < 3; ++step) key("ctrl+z");
+    EXPECT_EQ(session().work(), before);
+    for (int step = 0; step < 3; ++step) key("ctrl+shift+z");
+    EXPECT_EQ(session().work(), done);
+    EXPECT_EQ(largestDifference(last, picture()), 0);
+}
+
+TEST_F(ViewerTest, TheSunStandsWhereAndWhenItIsAsked) {
+    start(writeScene("box.gltf"));
+    session().editLights({distantLight("sun", 0.01f, {0, -1, 0.2f}, 1000)});
+    frames();
+    const auto light = [&]() -> const Light& { return session().document().moment().lights.at(0); };
+    ASSERT_FALSE(light().sun);
+    const Work before = session().work();
+    clickWidget("the sun of a place and time", 0.05);
+    ASSERT_TRUE(light().sun);
+    EXPECT_EQ(widget("angle (deg)"), nullptr) << "the sun is as large as it is";
+    const std::string noon = light().sun->time;
+    const Mat4 atNoon = light().shape.worldFromLight;
+    const Image first = picture();
+
+    const float hourWidth = 150;  // of the slider in the widget, which its label is part of
+    const auto clickSlider = [&](const std::string& label, double share) {
+        const PlacedWidget* placed = widget(label);
+        ASSERT_NE(placed, nullptr) << label;
+        clickWidget(label, share * double(hourWidth) / double(placed->max.x - placed->min.x));
+    };
+    clickSlider("hour", 0.75);
+    EXPECT_NE(light().sun->time, noon);
+    EXPECT_TRUE(light().sun->time.starts_with("2026-06-21T1")) << light().sun->time;
+    EXPECT_NE(light().shape.worldFromLight, atNoon);
+    EXPECT_GT(shareOfDifferent(first, picture()), 0.001);
+    const std::string evening = light().sun->time;
+    clickSlider("hour", 0.02);  // at night it stays where it was
+    EXPECT_EQ(light().sun->time, evening);
+    EXPECT_NE(viewer().windowState().message.find("below the horizon"), std::string::npos)
+        << viewer().windowState().message;
+    clickSlider("latitude (deg)", 0.5);
+    EXPECT_LT(std::abs(light().sun->latitude_deg), 10);
+    clickSlider("north (deg from -Z)", 0.75);
+    EXPECT_GT(light().sun->setting.north_deg, 45);
+    const Image last = picture();
+
+    key("ctrl+s");
+    viewer_.reset();
+    start(at("box.gltf"));
+    ASSERT_TRUE(light().sun);
+    EXPECT_EQ(light().sun->time, evening);
+    EXPECT_EQ(largestDifference(last, picture()), 0);
+    viewer_.reset();
+
+    start(at("box.gltf"));
+    const Work saved = session().work();
+    clickSlider("hour", 0.6);
+    EXPECT_NE(session().work(), saved);
+    key("ctrl+z");
+    EXPECT_EQ(session().work(), saved);
+    EXPECT_EQ(light().sun->time, evening);
+    clickWidget("the sun of a place and time", 0.05);  // what it was is kept as a distant light
+    EXPECT_FALSE(light().sun);
+    EXPECT_EQ(light().shape.shape, LightShape::distant);
+}
+
+TEST_F(ViewerTest, AMakersFileMakesALightThatLuminaireWhereItIs) {
+    start(writeScene("box.gltf"));
+    session().editLights({rectLight("lamp", 0.2f, 0.2f, {0.1f, 1.5f, 0.2f}, {0.1f, 0, 0.2f}, 100)});
+    frames();
+    const Work before = session().work();
+    const std::string file = at("tube.ies");
+    writeFileAtomically(file,
+                        "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 1.2 -0.04 -0.04\n1 1 10\n0 90 180\n0\n"
+                        "500 300 20\n");
+    const char* paths[] = {file.c_str()};
+    GLFWwindow* window = viewer().window().handle();
+    const GLFWdropfun drop = glfwSetDropCallback(window, nullptr);
+    glfwSetDropCallback(window, drop);
+    drop(window, 1, paths);
+    frames();
+    const auto light = [&]() -> const Light& { return session().document().moment().lights.at(0); };
+    ASSERT_TRUE(light().profile) << viewer().windowState().message;
+    EXPECT_EQ(light().shape.shape, LightShape::cylinder);
+    EXPECT_NEAR(placeOfLight(session()).y, 1.5f, 1e-6);
+    const Mat4 frame = light().shape.worldFromLight;
+
+    // Its web, shown about its place: 500 cd downwards is the longest, and goes as far as a web does.
+    const auto web = candelaWeb(light(), session().document().bounds());
+    ASSERT_FALSE(web.empty());
+    float lowest = 1e9f, highest = -1e9f;
+    for (const auto& line : web) {
+        for (const glm::vec3& point : line) {
+            lowest = std::min(lowest, point.y - 1.5f);
+            highest = std::max(highest, point.y - 1.5f);
+        }
+    }
+    const float reach_m = session().document().bounds().radius() / 7;
+    EXPECT_NEAR(lowest, -reach_m, 1e-3f * reach_m);
+    EXPECT_NEAR(highest, 20.0f / 500 * reach_m, 0.02f * reach_m);
+
+    clickWidget("x (m)", 0.2);  // what is clicked and not pulled stays
+    clickWidget("casts shadow", 0.1);
+    EXPECT_EQ(light().shape.worldFromLight, frame) << "no edit turns it once more";
+    key("ctrl+s");
+    const Image last = picture();
+    viewer_.reset();
+    start(at("box.gltf"));
+    EXPECT_EQ(light().shape.shape, LightShape::cylinder);
+    EXPECT_EQ(largestDifference(last, picture()), 0);
+
+    writeFileAtomically(file, "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3");
+    start(at("box.gltf"));
+    const Work saved = session().work();
+    GLFWwindow* again = viewer().window().handle();
+    const GLFWdropfun dropAgain = glfwSetDropCallback(again, nullptr);
+    glfwSetDropCallback(again, dropAgain);
+    dropAgain(again, 1, paths);
+    frames();
+    EXPECT_EQ(session().work(), saved) << "a file that cannot be read changes nothing";
+    EXPECT_TRUE(viewer().windowState().messageIsError);
+    EXPECT_NE(viewer().windowState().message.find("tube.ies:"), std::string::npos)
+        << viewer().windowState().message;
 }
 
 }  // namespace

@@ -15,6 +15,8 @@ glm::dvec2 lightExtent(const AreaLight& light) {
         case LightShape::disk:
         case LightShape::sphere:
             return glm::dvec2(light.radius_m);
+        case LightShape::cylinder:
+            return {0.5 * double(light.length_m), light.radius_m};
         case LightShape::distant:
             break;
     }
@@ -32,7 +34,8 @@ bool isOneSided(const AreaLight& light) {
 
 LightConstants lightConstants(const AreaLight& light) {
     static_assert(int(LightShape::rect) == shapeRect && int(LightShape::disk) == shapeDisk &&
-                  int(LightShape::sphere) == shapeSphere && int(LightShape::distant) == shapeDistant);
+                  int(LightShape::sphere) == shapeSphere && int(LightShape::distant) == shapeDistant &&
+                  int(LightShape::cylinder) == shapeCylinder);
     return {.halfSize = lightExtent(light),
             .shape = int(light.shape),
             .isOneSided = isOneSided(light),

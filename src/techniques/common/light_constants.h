@@ -8,8 +8,9 @@
 
 namespace penumbra {
 
-/// Half the light's width and height in metres; a distant light's as the tangent of half its angle, which
-/// stays finite for half the sky: 87 degrees and more count as 87.
+/// Half the light's width and height in metres, of a cylinder half its length and its radius; a distant
+/// light's as the tangent of half its angle, which stays finite for half the sky: 87 degrees and more count
+/// as 87.
 glm::dvec2 lightExtent(const AreaLight& light);
 
 /// More than a point or a direction.

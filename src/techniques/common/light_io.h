@@ -14,10 +14,11 @@ const int shapeRect = 0;
 const int shapeDisk = 1;
 const int shapeSphere = 2;
 const int shapeDistant = 3;
+const int shapeCylinder = 4;
 
 SHARED_STRUCT LightConstants {
     vec2 halfSize;  // rect: half its width and height, metres; disk and sphere: the radius, twice; distant:
-                    // the tangent of half its angle, twice
+                    // the tangent of half its angle, twice; cylinder: half its length, and its radius
     int shape;      // shapeRect, ...
     bool32 isOneSided;  // emits along -Z alone
     bool32 hasSize;     // is more than a point or a direction

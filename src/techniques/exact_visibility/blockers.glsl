@@ -97,7 +97,7 @@ bool mayHide(Blocker t, vec3 normal) {
     vec3 height = vec3(dot(normal, t.a), dot(normal, t.b), dot(normal, t.c));
     bool beside = all(greaterThan(u, w)) || all(greaterThan(-u, w)) || all(greaterThan(v, w)) || all(greaterThan(-v, w));
     bool behind = all(lessThanEqual(w, vec3(0.0))) || all(lessThanEqual(height, vec3(0.0)));
-    bool beyond = isFlat() && all(greaterThanEqual(w, vec3(rayEnd)));
+    bool beyond = (isFlat() || isTube()) && all(greaterThanEqual(w, vec3(rayEnd)));
     bool reachesBehind = min(w.x, min(w.y, w.z)) <= 0.0;
     vec3 inverse = 1.0 / max(w, 1e-30);
     vec2 a = t.onA.xy * inverse.x, b = t.onB.xy * inverse.y, c = t.onC.xy * inverse.z;

@@ -107,6 +107,7 @@ class BruteForceTest : public TechniqueTest {
 
 void change(LightShape shape, Light& light) {
     light.shape.shape = shape;
+    light.shape.length_m = 1.1f;
     light.shape.radius_m = 0.7f;
     light.shape.angle_rad = 0.3f;
     light.texture = -1;
@@ -115,8 +116,8 @@ void change(LightShape shape, Light& light) {
 TEST_F(BruteForceTest, GivesTheSameBitsOnBuiltInScenes) {
     for (const char* name : {"two-boxes", "cylinder", "overlapping-blockers", "textured-window"})
         expectSameBits(makeBuiltin(name), name);
-    for (const LightShape shape :
-         {LightShape::rect, LightShape::disk, LightShape::sphere, LightShape::distant}) {
+    for (const LightShape shape : {LightShape::rect, LightShape::disk, LightShape::sphere,
+                                   LightShape::distant, LightShape::cylinder}) {
         expectSameBits(withLight(makeBuiltin("two-boxes"), [&](Light& light) { change(shape, light); }),
                        "two-boxes, shape " + std::to_string(int(shape)));
     }
@@ -182,6 +183,8 @@ TEST_F(BruteForceTest, GivesTheSameBitsOnSoups) {
         constexpr std::array shapes = {LightShape::rect, LightShape::disk, LightShape::distant};
         expectSameBits(soup(seed, shapes[seed % shapes.size()]), "soup " + std::to_string(seed));
     }
+    for (std::uint32_t seed = 0; seed < 4; ++seed)
+        expectSameBits(soup(seed, LightShape::cylinder), "tube in soup " + std::to_string(seed));
 }
 
 // Samples of a sphere are counted on a disk through its middle, which is wider than what a receiver close by

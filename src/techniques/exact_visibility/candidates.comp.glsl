@@ -73,7 +73,7 @@ struct Sides {
 };
 
 // `across` is a direction in which the light reaches `size` from its centre, `along` one in which it has no extent; of
-// spheres `radius` is added along the whole normal.
+// spheres and tubes `radius` is added along the whole normal.
 vec4 sideOf(Bounds bounds, vec3 across, vec3 along, float size, float radius) {
     vec3 middle = 0.5 * (bounds.low + bounds.high), extent = 0.5 * (bounds.high - bounds.low);
     bool isDistant = light.emitter.shape == shapeDistant;
@@ -106,6 +106,13 @@ Sides sidesOf(Bounds bounds) {
         vec3 toLight = light.center - middle;
         along = dot(toLight, toLight) > 0.0 ? normalize(toLight) : along;
         x = perpendicularTo(along);
+        y = cross(along, x);
+    } else if (isTube()) {
+        radius = size.y;
+        size.y = 0.0;
+        vec3 toLight = light.center - middle;
+        toLight -= dot(toLight, x) * x;
+        if (dot(toLight, toLight) > 0.0) along = normalize(toLight);
         y = cross(along, x);
     } else if (light.emitter.shape == shapeDistant) {
         size = vec2(0.0);
@@ -181,13 +188,19 @@ bool mayReachLight(Bounds bounds, vec3 boxMin, vec3 boxMax) {
         float farthest = length(middle) + length(extent) + length(light.emitter.halfSize);
         return height <= max(2e-5 * reach, 1.001 * light.planeTolerance * farthest);
     }
-    // The sphere's near pole, for receivers whose direction towards the centre differs a little from the tile's.
+    // The sphere's near pole, or the tube's near line, for receivers whose direction there differs a little from the
+    // tile's. Of a tube only what is across it counts.
+    float radius = isTube() ? light.emitter.halfSize.y : light.emitter.halfSize.x;
+    if (isTube()) {
+        tileMiddle -= dot(tileMiddle, light.axisX) * light.axisX;
+        middle -= dot(middle, light.axisX) * light.axisX;
+    }
     float nearest = length(tileMiddle) - length(tileExtent);
-    if (nearest <= light.emitter.halfSize.x) return true;
+    if (nearest <= radius) return true;
     vec3 axis = -normalize(tileMiddle);
     float deviation = 1.5 * length(tileExtent) / nearest;
     float before = -dot(axis, middle) - dot(abs(axis), extent) - deviation * (length(middle) + length(extent));
-    return before <= light.emitter.halfSize.x + 2e-5 * reach;
+    return before <= radius + 2e-5 * reach;
 }
 
 void settle(ivec2 tile) {

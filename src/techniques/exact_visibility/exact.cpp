@@ -69,7 +69,7 @@ void ExactVisibility::describe(ParameterVisitor& visitor) {
 }
 
 const std::vector<LightLattice>& ExactVisibility::latticesFor(const AreaLight& light) {
-    const bool disk = light.shape != LightShape::rect;
+    const bool disk = light.shape != LightShape::rect && light.shape != LightShape::cylinder;
     const std::pair key(hasSize(light) ? samples_ : 1, disk);
     const auto found = lattices_.find(key);
     if (found != lattices_.end()) return found->second;
@@ -82,6 +82,7 @@ ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs,
     const glm::dmat4 worldFromLight = toGlm(light.worldFromLight);
     const glm::dmat3 axes(worldFromLight);
     const bool isDistant = light.shape == LightShape::distant, isSphere = light.shape == LightShape::sphere;
+    const bool isTube = light.shape == LightShape::cylinder;
     const double halfAngle = 0.5 * double(light.angle_rad);
     const glm::dvec3 center = isDistant ? glm::dvec3(0) : glm::dvec3(worldFromLight[3]) - soup_.originWorld();
     const glm::dvec2 size = lightExtent(light);
@@ -93,8 +94,8 @@ ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs,
             low[i] = std::cos(std::min(angle + halfAngle, std::acos(-1.0))) - 1e-6;
             high[i] = std::cos(std::max(angle - halfAngle, 0.0)) + 1e-6;
         } else {
-            const double reach =
-                isSphere ? light.radius_m : std::abs(axes[0][i]) * size.x + std::abs(axes[1][i]) * size.y;
+            const double across = isTube ? std::hypot(axes[1][i], axes[2][i]) : std::abs(axes[1][i]);
+            const double reach = isSphere ? light.radius_m : std::abs(axes[0][i]) * size.x + across * size.y;
             const double pad = 1e-6 * (std::abs(center[i]) + reach);
             low[i] = center[i] - reach - pad;
             high[i] = center[i] + reach + pad;
@@ -149,11 +150,11 @@ const gl::Program& ExactVisibility::resolveFor(const ResolveKind& kind) {
 }
 
 /// How many triangles may take a look at each sample: those with holes, and those that may reach the light.
-/// Spheres may make any triangle one, flat lights those of casters that come near their planes: within a
-/// hundredth of the scene's size, for receivers up to a thousand times that away.
+/// Spheres and tubes may make any triangle one, flat lights those of casters that come near their planes:
+/// within a hundredth of the scene's size, for receivers up to a thousand times that away.
 std::size_t ExactVisibility::countSpecial(const ExactLight& light, LightShape shape) const {
     if (shape == LightShape::distant) return soup_.maskedCount();
-    if (shape == LightShape::sphere) return soup_.triangleCount();
+    if (shape == LightShape::sphere || shape == LightShape::cylinder) return soup_.triangleCount();
     const float size = glm::distance(light.eye, light.center) + soup_.farthestFrom(light.center);
     return soup_.maskedCount() + soup_.countNear(light.center, light.axisZ, 0.01f * size);
 }

@@ -39,6 +39,7 @@ class ExactVisibility final : public Technique {
     void describe(ParameterVisitor& visitor) override;
     void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
     bool answersAtPoints() const override { return true; }
+    bool answersTubes() const override { return true; }
     void inspect(InspectionVisitor& visitor) const override;
     Statistics statistics() const override;
 

@@ -38,6 +38,31 @@ TEST_F(ExactVisibilityTest, SixtyFourSamplesAreNearTheReferenceForEveryShapeOfLi
     EXPECT_LE(judge(truth(distant, size, 512), exact(distant)).penumbra_rmse, 0.025);
 }
 
+// Thin and far, thick and close to the blockers, seen from past an end.
+TEST_F(ExactVisibilityTest, TubesAreNearTheReference) {
+    for (const char* name : {"two-boxes", "primitives", "columns"}) {
+        for (const auto& [length_m, radius_m] : {std::pair{2.0f, 0.02f}, {1.0f, 0.4f}, {0.2f, 0.5f}}) {
+            const Scene scene =
+                withLight(makeBuiltin(name), [&, length = length_m, radius = radius_m](Light& light) {
+                    light.shape.shape = LightShape::cylinder;
+                    light.shape.length_m = length;
+                    light.shape.radius_m = radius;
+                });
+            const LightResult reference = truth(scene, size, 512);
+            const VisibilityMetrics metrics = judge(reference, exact(scene, {{"samples", "256"}}));
+            EXPECT_LE(metrics.penumbra_rmse, 0.025) << name << ", " << length_m << " x " << radius_m;
+            EXPECT_LE(metrics.false_shadow, 0.001) << name << ", " << length_m << " x " << radius_m;
+            const Scene turned = withLight(scene, [](Light& light) {
+                auto& columns = light.shape.worldFromLight.columns;
+                std::swap(columns[1], columns[2]);
+                for (float& value : columns[1]) value = -value;
+            });
+            EXPECT_LE(shareOfDifferentPixels(exact(scene), exact(turned), 0.04f), 0.002)
+                << "turned about its axis";
+        }
+    }
+}
+
 // Cones of more than 60 degrees to the axis are looked at through a cube: a sky, and from inside a sphere.
 TEST_F(ExactVisibilityTest, WideConesAreNearTheReference) {
     const auto wide = [](LightShape shape) {

@@ -5,6 +5,7 @@
 layout(std140) uniform LightBlock { ExactLight light; };
 
 bool isFlat() { return light.emitter.shape == shapeRect || light.emitter.shape == shapeDisk; }
+bool isTube() { return light.emitter.shape == shapeCylinder; }
 
 // Whether a point counts as lying in the plane of a flat light.
 bool liesInLightPlane(vec3 pos) {
@@ -57,7 +58,7 @@ Patch fitToHorizon(Patch patch_, vec3 axis, vec3 normal, vec3 toSurface) {
     float height = dot(normal, patch_.center - toSurface);
     vec2 slope = vec2(dot(normal, patch_.across), dot(normal, patch_.along));
     vec2 center, across, along;
-    if (light.emitter.shape == shapeRect) {
+    if (light.emitter.shape == shapeRect || isTube()) {
         // The bounding rectangle of what remains of the square. An edge of the square remains in part where its higher
         // end is above the horizon.
         vec2 other = abs(slope.yx);
@@ -102,6 +103,11 @@ struct SeenLight {
     float cosine;  // of the cone's half angle; -1 from inside a sphere
     float tangent; // of it, where there is one patch
     int patches;   // 0: nothing is emitted this way
+    // Of a tube, whose samples lie in the plane through its two outer lines; `axis` leads there the shortest way.
+    float away_m;       // of the tube's own axis
+    float toPlane_m;    // of that plane, which is nearer
+    float along_m;      // from the receiver to the tube's middle, along it
+    float halfWidth_m;  // between the plane's middle and an outer line
 };
 
 const float wideCosine = 0.5;
@@ -127,6 +133,16 @@ SeenLight seeLight(vec3 apex) {
         float sine = light.emitter.halfSize.x / max(distance_m, 1e-37);
         seen.cosine = sine < 1.0 ? sqrt((1.0 - sine) * (1.0 + sine)) : -1.0;
         if (!isPoint) seen.tangent = sine / max(seen.cosine, 0.1);
+    } else if (isTube()) {
+        float radius = light.emitter.halfSize.y;
+        seen.along_m = dot(seen.toCenter, light.axisX);
+        vec3 across = seen.toCenter - seen.along_m * light.axisX;
+        seen.away_m = length(across);
+        seen.patches = seen.away_m > radius * (1.0 + 1e-6) ? 1 : 0;
+        seen.axis = across / max(seen.away_m, 1e-37);
+        float sine = radius / max(seen.away_m, 1e-37);
+        seen.toPlane_m = seen.away_m - radius * sine;
+        seen.halfWidth_m = radius * sqrt(max((1.0 - sine) * (1.0 + sine), 0.0));
     } else {
         seen.cosine = light.coneCosine;
         if (!isPoint) seen.tangent = light.emitter.halfSize.x;
@@ -135,7 +151,37 @@ SeenLight seeLight(vec3 apex) {
     return seen;
 }
 
+// At what share of the way to a tube's plane one meets the tube itself, in a direction that ends on that plane.
+float shareToTube(SeenLight seen, vec3 direction) {
+    float radius = light.emitter.halfSize.y;
+    float aside = dot(cross(seen.axis, light.axisX), direction);
+    float along = seen.away_m * seen.toPlane_m, length2 = seen.toPlane_m * seen.toPlane_m + aside * aside;
+    float beyond = (seen.away_m - radius) * (seen.away_m + radius);
+    return beyond / (along + sqrt(max(along * along - length2 * beyond, 0.0)));
+}
+
+// Whether a direction that ends on a tube's plane meets the tube between its ends.
+bool meetsTube(SeenLight seen, vec3 direction) {
+    float place_m = shareToTube(seen, direction) * dot(light.axisX, direction) - seen.along_m;
+    return abs(place_m) <= light.emitter.halfSize.x * (1.0 + 1e-6);
+}
+
+// Around the outline of a tube in its plane: a line along it looks the longer the more it is in front of that plane.
+Patch patchOfTube(SeenLight seen, vec3 normal, vec3 toSurface) {
+    vec2 size = light.emitter.halfSize;
+    vec2 ends = seen.along_m + vec2(-size.x, size.x);
+    vec2 stretched = ends * (1.0 + size.y / seen.away_m);
+    float low = min(ends.x, stretched.x), high = max(ends.y, stretched.y);
+    // A hair of width for what is only a line, or a ring.
+    float least = max(1e-6 * max(size.x, size.y), 1e-37);
+    Patch whole = makePatch(seen.toPlane_m * seen.axis + 0.5 * (low + high) * light.axisX,
+                            max(0.5 * (high - low), least) * light.axisX,
+                            max(seen.halfWidth_m, least) * cross(seen.axis, light.axisX), seen.axis);
+    return fitToHorizon(whole, seen.axis, normal, toSurface);
+}
+
 Patch patchOf(SeenLight seen, int face, vec3 normal, vec3 toSurface) {
+    if (isTube()) return patchOfTube(seen, normal, toSurface);
     bool isPoint = !light.emitter.hasSize;
     if (isFlat()) {
         // A light of size zero is seen through a window around it; one that is only a line keeps a hair of width.
@@ -166,6 +212,7 @@ const float rayEnd = 1.0 - 1e-5;
 float endOfRay(SeenLight seen, vec3 direction) {
     if (isFlat()) return rayEnd;
     if (light.emitter.shape == shapeDistant) return 3e38;
+    if (isTube()) return rayEnd * shareToTube(seen, direction);
     if (light.emitter.halfSize.x == 0.0) return rayEnd * dot(seen.toCenter, direction) / dot(direction, direction);
     vec3 unit = normalize(direction);
     vec3 beside = cross(unit, seen.toCenter);

@@ -117,11 +117,12 @@ bool isPlain(Blocker t, SeenLight seen, bool hasHoles) {
     if (light.emitter.shape == shapeDistant) return true;
     if (isFlat()) return max(t.uvwA.z, max(t.uvwB.z, t.uvwC.z)) < rayEnd;
     float farthest_m = max(dot(seen.axis, t.a), max(dot(seen.axis, t.b), dot(seen.axis, t.c)));
+    if (isTube()) return farthest_m < rayEnd * (seen.away_m - light.emitter.halfSize.y);
     return farthest_m < rayEnd * (length(seen.toCenter) - light.emitter.halfSize.x);
 }
 
 // Marks what cannot be seen even without blockers: no sample, or below the horizon.
-void beginWith(Patch patch_, vec3 normal, int lattice, vec2 offset, vec3 toSurface) {
+void beginWith(SeenLight seen, Patch patch_, vec3 normal, int lattice, vec2 offset, vec3 toSurface) {
     // How high the sample (i, j) is above the receiver's plane, times something: linear in i and j.
     vec3 center = patch_.center - toSurface;
     float rise = dot(normal, patch_.across), fall = dot(normal, patch_.along);
@@ -134,10 +135,13 @@ void beginWith(Patch patch_, vec3 normal, int lattice, vec2 offset, vec3 toSurfa
         uint above = perI > 0.0 ? ~((2u << uint(clamp(floor(meets), -1.0, 30.0) + 1.0) >> 1) - 1u) : bitsBefore(meets);
         uint row = uint(lattice * EXACT_MAX_ROWS + j);
         unlit[j] = ~(light.valid[row >> 2][row & 3u] & above);
-        for (uint bits = patch_.isCut ? ~unlit[j] : 0u; bits != 0u; bits &= bits - 1u) {
+        for (uint bits = patch_.isCut || isTube() ? ~unlit[j] : 0u; bits != 0u; bits &= bits - 1u) {
             int i = findLSB(bits);
-            vec2 place = onLight(patch_, uvOf(vec2(i, j), offset));
-            if (dot(place, place) >= 1.0) unlit[j] |= 1u << uint(i);
+            vec2 uv = uvOf(vec2(i, j), offset);
+            vec2 place = onLight(patch_, uv);
+            bool isOff = isTube() ? !meetsTube(seen, patch_.center + uv.x * patch_.across + uv.y * patch_.along)
+                                  : dot(place, place) >= 1.0;
+            if (isOff) unlit[j] |= 1u << uint(i);
         }
         hidden[j] = unlit[j];
     }
@@ -263,7 +267,7 @@ void main() {
     vec3 apex = apexOf(receiver);
     Footing footing = footingOf(min(pixel, view.size_px - 1), receiver);
     SeenLight seen = seeLight(apex);
-    vec3 toSurface = isFlat() ? receiver.posLight - apex : vec3(0.0);
+    vec3 toSurface = isFlat() || isTube() ? receiver.posLight - apex : vec3(0.0);
     int patches = receives ? seen.patches : 0;
 
     bool isPaused = false;
@@ -276,7 +280,7 @@ void main() {
         if (isPaused) break;
         Patch patch_ = patchOf(seen, face, receiver.normalLight, toSurface);
         vec2 offset = light.offsets[lattice].xy;
-        beginWith(patch_, receiver.normalLight, lattice, offset, toSurface);
+        beginWith(seen, patch_, receiver.normalLight, lattice, offset, toSurface);
         for (int j = 0; j < ROWS && resumes; ++j) hidden[j] |= states[base + uint(EXACT_STATE_WORDS + j)];
         resumes = false;
 

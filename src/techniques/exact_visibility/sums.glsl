@@ -18,8 +18,9 @@ vec3 weightOf(SeenLight seen, Patch patch_, vec3 normal, vec2 uv, int index, boo
     vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
     float length2 = dot(direction, direction);
     vec3 weight = vec3(1.0);
-    if (isFlat()) {
-        // cos(receiver) cos(light) / distance^2, up to a factor that is the same for all samples.
+    if (isFlat() || isTube()) {
+        // cos(receiver) cos(light) / distance^2, up to a factor that is the same for all samples. (A tube looks like what
+        // it covers of its plane.)
         if (light.isWeightedByIrradiance) weight *= max(dot(normal, direction), 0.0) / (length2 * length2) * dot(seen.toCenter, seen.toCenter);
         if (light.emitter.isTextured)
             weight *= isOnWhole ? weights[index].rgb

@@ -14,7 +14,7 @@ bool appendInputs(std::vector<std::byte>& key, const ShadowInputs& inputs) {
     const AreaLight& light = inputs.light;
     appendBytes(key, light.shape);
     appendBytes(key, light.worldFromLight);
-    for (const float size : {light.width_m, light.height_m, light.radius_m, light.angle_rad})
+    for (const float size : {light.width_m, light.height_m, light.length_m, light.radius_m, light.angle_rad})
         appendBytes(key, size);
     appendBytes(key, light.twoSided);
     appendBytes(key, light.radianceTexture);

@@ -150,6 +150,9 @@ InlineVector<glm::dvec3, 8> LightSurface::bounds() const {
         case LightShape::sphere:
             half = {r, r, r};
             break;
+        case LightShape::cylinder:
+            half = {0.5 * double(light_.length_m), r, r};
+            break;
         case LightShape::distant:
             return {};
     }

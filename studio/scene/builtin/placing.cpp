@@ -66,6 +66,17 @@ Light sphereLight(std::string name, float radius_m, const glm::vec3& center, con
     return made;
 }
 
+Light tubeLight(std::string name, float length_m, float radius_m, const glm::vec3& center,
+                const glm::vec3& target, float illuminance_lux, const glm::vec3& color) {
+    const float distance_m = glm::distance(center, target);
+    const float radiance_nits = illuminance_lux * distance_m * distance_m / (2 * radius_m * length_m);
+    Light made =
+        light(std::move(name), LightShape::cylinder, worldFromLookAt(center, target), radiance_nits, color);
+    made.shape.length_m = length_m;
+    made.shape.radius_m = radius_m;
+    return made;
+}
+
 Light distantLight(std::string name, float angle_rad, const glm::vec3& direction, float illuminance_lux,
                    const glm::vec3& color) {
     Light made = light(std::move(name), LightShape::distant, worldFromLookAt(glm::vec3(0), direction),

@@ -22,6 +22,9 @@ Light diskLight(std::string name, float radius_m, const glm::vec3& eye, const gl
                 float illuminance_lux, const glm::vec3& color = glm::vec3(1));
 Light sphereLight(std::string name, float radius_m, const glm::vec3& center, const glm::vec3& target,
                   float illuminance_lux, const glm::vec3& color = glm::vec3(1));
+/// A tube that lies level and across the way to `target`.
+Light tubeLight(std::string name, float length_m, float radius_m, const glm::vec3& center,
+                const glm::vec3& target, float illuminance_lux, const glm::vec3& color = glm::vec3(1));
 Light distantLight(std::string name, float angle_rad, const glm::vec3& direction, float illuminance_lux,
                    const glm::vec3& color = glm::vec3(1));
 

@@ -13,6 +13,7 @@
 #include "studio/scene/lights/sidecar.h"
 #include "studio/scene/open_scene.h"
 #include "studio/scene/profiles/light_profile.h"
+#include "studio/scene/profiles/luminaire.h"
 
 namespace penumbra::studio {
 namespace {
@@ -77,6 +78,35 @@ TEST_F(Luminaires, AreWhatTheirFileSays) {
     ASSERT_EQ(box.warnings.size(), 1u);
     EXPECT_NE(box.warnings[0].find("l.json:2: 'box.ies': its luminous opening, box"), std::string::npos)
         << box.warnings[0];
+}
+
+TEST_F(Luminaires, TubesLieAlongC0OrC90) {
+    write("c0.ies", panel("NONE", "180", "-0.04 1.2 -0.04"));
+    write("c90.ies", panel("NONE", "180", "1.2 -0.04 -0.04"));
+    const std::string place = std::string(R"(, "translation": [1, 2, 3], "turn": 30)") + down;
+    const Scene scene = sceneWith(R"("type": "LuminaireLight", "file": "c0.ies")" + place);
+    EXPECT_TRUE(scene.warnings.empty());
+    const Light along = scene.at(0).lights.at(0);
+    const Light across = lightOf(R"("type": "LuminaireLight", "file": "c90.ies")" + place);
+    for (const Light& light : {along, across}) {
+        EXPECT_EQ(light.shape.shape, LightShape::cylinder);
+        EXPECT_FLOAT_EQ(light.shape.length_m, 1.2f);
+        EXPECT_FLOAT_EQ(light.shape.radius_m, 0.02f);
+        EXPECT_EQ(light.shape.worldFromLight.columns[3][1], 2);
+        EXPECT_EQ(worldFromLightOf(light), worldFromLightOf(along));
+    }
+    // Shining down as it does, the luminaire's Y is the world's -Z.
+    EXPECT_NEAR(along.shape.worldFromLight.columns[0][0], 1, 1e-6);
+    EXPECT_NEAR(across.shape.worldFromLight.columns[0][2], -1, 1e-6);
+    EXPECT_NEAR(across.shape.worldFromLight.columns[2][1], 1, 1e-6);
+    // C0 stays where it was: 30 degrees off the luminaire's X.
+    EXPECT_NEAR(glm::degrees(turnOfC0_rad(*along.profile)), 30, 1e-4);
+    EXPECT_NEAR(glm::degrees(turnOfC0_rad(*across.profile)), -60, 1e-4);
+
+    write("oval.ies", panel("NONE", "180", "-0.04 1.2 -0.09"));
+    const Scene oval = sceneWith(R"("type": "LuminaireLight", "file": "oval.ies")");
+    ASSERT_EQ(oval.warnings.size(), 1u);
+    EXPECT_NE(oval.warnings[0].find("is taken for a round tube"), std::string::npos) << oval.warnings[0];
 }
 
 TEST_F(Luminaires, LoseLightByBeingTilted) {

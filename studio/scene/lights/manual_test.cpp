@@ -58,7 +58,7 @@ json resolved(const json& schema, json property) {
     return property;
 }
 
-const char* const types[] = {"RectLight",    "DiskLight",      "SphereLight",
+const char* const types[] = {"RectLight",    "DiskLight",      "SphereLight", "CylinderLight",
                              "DistantLight", "LuminaireLight", "SunLight"};
 
 /// A type's own properties and those of what it builds on.
@@ -96,6 +96,9 @@ void probe(const json& property, std::vector<json>& good, std::vector<json>& bad
     } else if (type == "string" && property["description"].get<std::string>().starts_with("ISO")) {
         good = {"2026-06-20T14:00+02:00"};
         bad = {"", 1, "noon", "2026-06-20T12:00", "2026-12-20T12:00Z"};
+    } else if (type == "string" && property["description"].get<std::string>().starts_with("What the watts")) {
+        good = {"Blender 4.2", "blender 3.6.5"};
+        bad = {"", 1, "Blender", "Cinema 4D"};
     } else if (type == "string") {
         good = {property["pattern"].get<std::string>().ends_with(")$") ? "inner/lamp.LDT" : "some text"};
         bad = {"", 1, "line\nbreak"};
@@ -115,6 +118,9 @@ TEST(LightsSchema, AgreesWithTheParser) {
 
     const auto document = [](const std::string& type, const std::string& key, const json& value) {
         json light = leastOf(type);
+        // Each means nothing without the other.
+        if (key == "watts") light["program"] = "Blender 4.2";
+        if (key == "program") light["watts"] = 60;
         if (key != "type") light[key] = value;
         return json{{"version", 1}, {"lights", {light}}};
     };
@@ -135,7 +141,7 @@ TEST(LightsSchema, AgreesWithTheParser) {
             EXPECT_FALSE(isAccepted(document(type, key, 1))) << type << " " << key;
         }
     }
-    EXPECT_EQ(probed, 100);
+    EXPECT_EQ(probed, 126);
 }
 
 TEST(LightsSchema, StatesTheDefaultsOfTheParser) {
@@ -154,6 +160,7 @@ TEST(LightsSchema, StatesTheDefaultsOfTheParser) {
         const SidecarLight a = parse(bare), b = parse(explicitly);
         EXPECT_EQ(a.light.shape.width_m, b.light.shape.width_m);
         EXPECT_EQ(a.light.shape.height_m, b.light.shape.height_m);
+        EXPECT_EQ(a.light.shape.length_m, b.light.shape.length_m);
         EXPECT_EQ(a.light.shape.radius_m, b.light.shape.radius_m);
         EXPECT_EQ(a.light.shape.angle_rad, b.light.shape.angle_rad);
         EXPECT_EQ(a.light.shape.twoSided, b.light.shape.twoSided);

@@ -14,6 +14,7 @@
 #include "studio/scene/json/lined_json.h"
 #include "studio/scene/lights/black_body.h"
 #include "studio/scene/lights/nearest_name.h"
+#include "studio/scene/lights/radiant_power.h"
 #include "studio/scene/lights/sidecar.h"
 #include "studio/scene/lights/sidecar_place.h"
 #include "studio/scene/profiles/profile_file.h"
@@ -34,9 +35,11 @@ constexpr std::array<std::string_view, 2> luminanceKeys{"intensity", "normalize"
 constexpr std::array<std::string_view, 6> shapingKeys{"shaping:cone:angle",    "shaping:cone:softness",
                                                       "shaping:ies:file",      "shaping:ies:angleScale",
                                                       "shaping:ies:normalize", "shaping:ies:turn"};
-constexpr std::array<std::string_view, 4> rectKeys{"width", "height", "texture:file", "twoSided"};
-constexpr std::array<std::string_view, 2> diskKeys{"radius", "twoSided"};
-constexpr std::array<std::string_view, 1> sphereKeys{"radius"};
+constexpr std::array<std::string_view, 6> rectKeys{"width",    "height", "texture:file",
+                                                   "twoSided", "watts",  "program"};
+constexpr std::array<std::string_view, 4> diskKeys{"radius", "twoSided", "watts", "program"};
+constexpr std::array<std::string_view, 3> sphereKeys{"radius", "watts", "program"};
+constexpr std::array<std::string_view, 2> cylinderKeys{"length", "radius"};
 constexpr std::array<std::string_view, 3> distantKeys{"angle", "azimuth", "altitude"};
 constexpr std::array<std::string_view, 3> luminaireKeys{"file", "multiplier", "turn"};
 constexpr std::array<std::string_view, 6> sunKeys{"latitude", "longitude",  "time",
@@ -54,7 +57,7 @@ struct LightType {
     std::array<Keys, 5> keys;
 };
 
-constexpr std::array<LightType, 6> lightTypes{{
+constexpr std::array<LightType, 7> lightTypes{{
     {"RectLight",
      Source::shape,
      LightShape::rect,
@@ -67,6 +70,10 @@ constexpr std::array<LightType, 6> lightTypes{{
      Source::shape,
      LightShape::sphere,
      {placeKeys, luminanceKeys, shapingKeys, hangingKeys, sphereKeys}},
+    {"CylinderLight",
+     Source::shape,
+     LightShape::cylinder,
+     {placeKeys, luminanceKeys, shapingKeys, hangingKeys, cylinderKeys}},
     {"DistantLight", Source::shape, LightShape::distant, {placeKeys, luminanceKeys, distantKeys}},
     {"LuminaireLight", Source::luminaire, LightShape::rect, {placeKeys, hangingKeys, luminaireKeys}},
     {"SunLight", Source::sun, LightShape::distant, {sunKeys}},
@@ -94,6 +101,8 @@ float sizeFactor(const AreaLight& shape) {
             return pi * shape.radius_m * shape.radius_m;
         case LightShape::sphere:
             return 4 * pi * shape.radius_m * shape.radius_m;
+        case LightShape::cylinder:
+            return 2 * pi * shape.radius_m * shape.length_m;
         case LightShape::distant: {
             const float sine = std::sin(0.5f * shape.angle_rad);
             return pi * sine * sine;
@@ -119,9 +128,15 @@ void requireFinite(const JsonView& object, const glm::vec3& value) {
 
 /// Luminance from intensity, exposure and colour. A light without size has none: there `intensity` is what an
 /// area light shrinking with `normalize` tends to, in candela (a quarter for a sphere, whose area is four
-/// times what it shows) or lux; and without `normalize`, which would leave darkness, it is simply candela or
-/// lux.
+/// times what it shows, and 1 / pi for a tube, across it) or lux; and without `normalize`, which would leave
+/// darkness, it is simply candela or lux.
 Emission readEmission(const JsonView& object, const AreaLight& shape) {
+    if (statesWatts(object)) {
+        Emission emission = readWatts(object, shape);
+        emission.value *= readStrength(object, 1);
+        requireFinite(object, emission.value);
+        return emission;
+    }
     const bool distant = shape.shape == LightShape::distant;
     const float intensity = object.number("intensity", distant ? 50000.0f : 1.0f, atLeastZero);
     const bool normalized = object.boolean("normalize", false);
@@ -134,6 +149,7 @@ Emission readEmission(const JsonView& object, const AreaLight& shape) {
     } else {
         emission.unit = distant ? Emission::Unit::lux : Emission::Unit::candela;
         if (normalized && shape.shape == LightShape::sphere) emission.value *= 0.25f;
+        if (normalized && shape.shape == LightShape::cylinder) emission.value /= pi;
     }
     requireFinite(object, emission.value);
     return emission;
@@ -187,18 +203,20 @@ void readSun(const LinedJson& document, const JsonView& object, SidecarLight& re
     for (const std::string_view key : {"latitude", "longitude", "time"})
         if (!object.has(key)) object.fail(fmt::format("a SunLight needs a '{}'", key));
     const JsonView time = object.at("time");
-    SunPlace place;
-    place.latitude_deg = object.at("latitude").asNumber({-90, 90});
-    place.longitude_deg = object.at("longitude").asNumber({-180, 180});
-    place.utc_days = parseSunTime(time.asName(), document.placeOf(time));
-    const SunSetting setting{.north_deg = object.number("north", 0, {-360, 360}),
-                             .refraction = object.boolean("refraction", true)};
-    const Light sun = sunLight(read.light.name, place, setting, document.placeOf(time));
+    const Light sun =
+        sunLight(read.light.name,
+                 SunOrigin{.latitude_deg = object.at("latitude").asNumber({-90, 90}),
+                           .longitude_deg = object.at("longitude").asNumber({-180, 180}),
+                           .time = time.asName(),
+                           .setting = {.north_deg = object.number("north", 0, {-360, 360}),
+                                       .refraction = object.boolean("refraction", true)},
+                           .multiplier = readStrength(object, object.number("multiplier", 1, atLeastZero))},
+                 document.placeOf(time));
     read.light.shape = sun.shape;
+    read.light.sun = sun.sun;
     read.parentFromLight = std::bit_cast<glm::mat4>(sun.shape.worldFromLight);
     read.isInWorld = true;
     read.light.emission = sun.emission;
-    read.light.emission.value *= readStrength(object, object.number("multiplier", 1, atLeastZero));
     requireFinite(object, read.light.emission.value);
 }
 
@@ -211,6 +229,7 @@ void readShape(const LinedJson& document, const JsonView& object, SidecarLight& 
     } else if (shape.shape == LightShape::distant) {
         shape.angle_rad = std::min(glm::radians(object.number("angle", 0.53f, {0, 180})), pi);
     } else {
+        if (shape.shape == LightShape::cylinder) shape.length_m = object.number("length", 1, atLeastZero);
         shape.radius_m = object.number("radius", 0.5f, atLeastZero);
     }
     shape.twoSided = object.boolean("twoSided", false);

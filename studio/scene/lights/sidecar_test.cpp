@@ -104,6 +104,61 @@ TEST(Sidecar, PlacesAreSaidOnce) {
               std::string::npos);
 }
 
+TEST(Sidecar, TubesAreUsdLuxsCylinders) {
+    const Light plain = onlyLight(R"("type": "CylinderLight")");
+    EXPECT_EQ(plain.shape.shape, LightShape::cylinder);
+    EXPECT_EQ(plain.shape.length_m, 1);
+    EXPECT_EQ(plain.shape.radius_m, 0.5f);
+    EXPECT_EQ(plain.emission.value.x, 1);
+    const Light normalized = onlyLight(
+        R"("type": "CylinderLight", "length": 1.2, "radius": 0.013, "intensity": 300, "normalize": true)");
+    EXPECT_NEAR(normalized.emission.value.x, 300 / (2 * pi * 0.013f * 1.2f), 1e-2);
+    EXPECT_EQ(normalized.emission.unit, Emission::Unit::nits);
+    // Of no size: candela, and with normalize those that ever smaller ones tend to, across.
+    for (const char* size : {R"("length": 0)", R"("radius": 0)"}) {
+        const std::string body = std::string(R"("type": "CylinderLight", "intensity": 300, )") + size;
+        EXPECT_EQ(onlyLight(body).emission.unit, Emission::Unit::candela);
+        EXPECT_EQ(onlyLight(body).emission.value.x, 300);
+        EXPECT_NEAR(onlyLight(body + R"(, "normalize": true)").emission.value.x, 300 / pi, 1e-3);
+    }
+    EXPECT_NE(errorOf(R"({"version": 1, "lights": [{"name": "a", "type": "CylinderLight", "width": 1}]})")
+                  .find("unknown key 'width' in CylinderLight"),
+              std::string::npos);
+}
+
+TEST(Sidecar, WattsAreThoseOfAProgramAndItsVersion) {
+    const auto nits = [](const std::string& body) { return onlyLight(body).emission.value.x; };
+    const std::string rect = R"("type": "RectLight", "width": 2, "height": 0.5, "watts": 60, "program": )";
+    EXPECT_NEAR(nits(rect + R"("Blender 4.2")"), 683 * 60 / pi, 1e-1);
+    EXPECT_NEAR(nits(rect + R"("blender v3.6.5")"), 683 * 60 / 4.0f, 1e-1);
+    EXPECT_NEAR(nits(rect + R"("Blender 5.0", "exposure": 1, "color": [0.5, 1, 1])"), 683 * 60 / pi, 1e-1);
+    EXPECT_NEAR(nits(R"("type": "DiskLight", "radius": 0.5, "watts": 60, "program": "Blender 2.93")"),
+                683 * 60 / pi, 1e-1);
+    // Points: 1 / (4 pi) of it in each direction, in all versions.
+    const Light point =
+        onlyLight(R"("type": "SphereLight", "radius": 0, "watts": 60, "program": "Blender 3.0")");
+    EXPECT_EQ(point.emission.unit, Emission::Unit::candela);
+    EXPECT_NEAR(point.emission.value.x, 683 * 60 / (4 * pi), 1e-1);
+    EXPECT_NEAR(nits(R"("type": "SphereLight", "radius": 0.1, "watts": 60, "program": "Blender 4.0")"),
+                683 * 60 / (4 * pi * pi * 0.01f), 1);
+
+    const auto error = [](const std::string& body) {
+        return errorOf(R"({"version": 1, "lights": [{"name": "a", )" + body + "}]}");
+    };
+    EXPECT_NE(
+        error(R"("type": "RectLight", "watts": 60)").find("chair.lights.json:1: 'watts' need the 'program'"),
+        std::string::npos);
+    EXPECT_NE(error(R"("type": "RectLight", "program": "Blender 4.2")").find("without 'watts'"),
+              std::string::npos);
+    for (const char* other : {"Blender", "Cinema 4D", "4.2", ""})
+        EXPECT_TRUE(error(rect + "\"" + other + "\"").starts_with("chair.lights.json:1: ")) << other;
+    EXPECT_NE(error(rect + R"("Blender 4.2", "intensity": 3)").find("say the same"), std::string::npos);
+    EXPECT_NE(error(R"("type": "DistantLight", "watts": 3, "program": "Blender 4.2")").find("unknown key"),
+              std::string::npos);
+    EXPECT_NE(error(R"("type": "RectLight", "width": 0, "watts": 3, "program": "Blender 4.2")").find("area"),
+              std::string::npos);
+}
+
 TEST(Sidecar, WhatIsWrittenReadsBackTheSame) {
     const Sidecar written = parseSidecar(R"({"version": 1, "lights": [
       {"name": "a \"quoted\" \u00e9", "type": "RectLight", "width": 1.1, "height": 0, "intensity": 8123.7,
@@ -261,7 +316,8 @@ TEST(Sidecar, ErrorsSayWhereAndWhatToDo) {
         {withLight("\"node\": \"\""), f + "4: 'node' must not be empty"},
         {withLight("\"node\": \"a\\u0007\""), f + "4: 'node' must not contain control characters"},
         {"{\"version\": 1, \"lights\": [\n{\"name\": \"a\"}]}",
-         f + "2: a light needs a 'type': one of RectLight, DiskLight, SphereLight, DistantLight, "
+         f + "2: a light needs a 'type': one of RectLight, DiskLight, SphereLight, "
+             "CylinderLight, DistantLight, "
              "LuminaireLight, SunLight"},
         {"{\"version\": 1, \"lights\": [\n{\"name\": \"a\",\n\"type\": \"Rectlight\"}]}",
          f + "3: unknown type 'Rectlight' of light; did you mean 'RectLight'?"},

@@ -40,6 +40,8 @@ std::string_view typeOf(LightShape shape) {
             return "SphereLight";
         case LightShape::distant:
             return "DistantLight";
+        case LightShape::cylinder:
+            return "CylinderLight";
     }
     return "";
 }
@@ -72,6 +74,10 @@ void writeSize(Json& json, const AreaLight& shape) {
         case LightShape::sphere:
             json["radius"] = number(shape.radius_m);
             break;
+        case LightShape::cylinder:
+            json["length"] = number(shape.length_m);
+            json["radius"] = number(shape.radius_m);
+            break;
         case LightShape::distant:
             json["angle"] = number(glm::degrees(shape.angle_rad));
             break;
@@ -85,7 +91,22 @@ void writeShaping(Json& json, const SidecarProfile& profile) {
     if (profile.turn_deg != 0) json["shaping:ies:turn"] = number(profile.turn_deg);
 }
 
+Json writeSun(const Light& light) {
+    const SunOrigin& sun = *light.sun;
+    Json json = {{"name", light.name},
+                 {"type", "SunLight"},
+                 {"latitude", number(sun.latitude_deg)},
+                 {"longitude", number(sun.longitude_deg)},
+                 {"time", sun.time}};
+    if (sun.setting.north_deg != 0) json["north"] = number(sun.setting.north_deg);
+    if (!sun.setting.refraction) json["refraction"] = false;
+    if (sun.multiplier != glm::vec3(1)) writeEmission(json, "multiplier", sun.multiplier);
+    if (!light.castsShadow) json["shadow:enable"] = false;
+    return json;
+}
+
 Json write(const SidecarLight& written) {
+    if (written.light.sun) return writeSun(written.light);
     const Light& light = written.light;
     const bool isLuminaire = written.profile && written.profile->isLuminaire;
     Json json = {{"name", light.name}, {"type", isLuminaire ? "LuminaireLight" : typeOf(light.shape.shape)}};

@@ -17,4 +17,11 @@ std::string makeLuminaire(std::shared_ptr<const LightProfile> profile, float tur
 /// Puts a light of any kind there; a luminaire gives what its file says of its tilt.
 void place(Light& light, const glm::mat4& worldFromLight);
 
+/// Where it was put: of all but tubes along a luminaire's Y (ProfiledEmission::liesAlongY) the place of its
+/// shape.
+glm::mat4 worldFromLightOf(const Light& light);
+
+/// From the X axis of the light's shape to C0 of its profile, towards Y.
+float turnOfC0_rad(const ProfiledEmission& profile);
+
 }  // namespace penumbra::studio

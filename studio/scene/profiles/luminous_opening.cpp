@@ -139,6 +139,12 @@ NearestLight nearestLight(const LuminousOpening& opening, bool up) {
         nearest.note = fmt::format("its luminous opening, {} {:.4g} x {:.4g} x {:.4g} m, is taken for {}",
                                    opening.name(), opening.x_m, opening.y_m, opening.z_m, as);
     };
+    const auto tube = [&](double length_m, double across_m, double high_m) {
+        light.shape = LightShape::cylinder;
+        light.length_m = float(length_m);
+        light.radius_m = float(meanRadius(across_m, high_m));
+        if (across_m != high_m) say("a round tube of the same area across");
+    };
     switch (opening.shape) {
         case Shape::point:
             sphere(0);
@@ -167,9 +173,11 @@ NearestLight nearestLight(const LuminousOpening& opening, bool up) {
             if (opening.name() != "sphere") say("a sphere of the same volume");
             break;
         case Shape::tubeAlongX:
+            tube(opening.x_m, opening.y_m, opening.z_m);
+            break;
         case Shape::tubeAlongY:
-            flat(opening.x_m, opening.y_m);
-            say("a flat strip");
+            tube(opening.y_m, opening.x_m, opening.z_m);
+            nearest.liesAlongY = true;
             break;
         case Shape::standing:
             sphere(meanRadius(opening.y_m, opening.z_m));

@@ -40,7 +40,8 @@ OpeningReading readLm63Opening(int year, double width_m, double length_m, double
 /// A light of the library.
 struct NearestLight {
     AreaLight shape;
-    std::string note;  ///< what is not as in the opening; empty: nothing
+    bool liesAlongY = false;  ///< a quarter turn about Z, from +X to +Y, puts it where the opening is
+    std::string note;         ///< what is not as in the opening; empty: nothing
 };
 
 /// The light nearest to an opening, at the origin; flat ones shine along +Z as well where `up` says so.

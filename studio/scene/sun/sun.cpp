@@ -3,74 +3,19 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
 #include "studio/errors.h"
 #include "studio/scene/lights/light_units.h"
 #include "studio/scene/profiles/number_stream.h"
+#include "studio/scene/sun/sun_clock.h"
 
 namespace penumbra::studio {
 namespace {
 
 constexpr double radians = std::numbers::pi / 180;
-
-/// Reads a text from its left.
-class TimeText {
-  public:
-    explicit TimeText(std::string_view text) : rest_(text) {}
-
-    /// Exactly so many digits, as a number.
-    bool digits(std::size_t count, int& value) {
-        if (rest_.size() < count) return false;
-        value = 0;
-        for (const char c : rest_.substr(0, count)) {
-            if (c < '0' || c > '9') return false;
-            value = 10 * value + (c - '0');
-        }
-        rest_.remove_prefix(count);
-        return true;
-    }
-    bool skip(char c) {
-        if (!rest_.starts_with(c)) return false;
-        rest_.remove_prefix(1);
-        return true;
-    }
-    /// ".25" as 0.25; 0 where there is none.
-    double fraction() {
-        if (!skip('.')) return 0;
-        double value = 0, digit = 0.1;
-        for (; !rest_.empty() && rest_[0] >= '0' && rest_[0] <= '9'; rest_.remove_prefix(1), digit /= 10)
-            value += digit * (rest_[0] - '0');
-        return value;
-    }
-    bool ended() const { return rest_.empty(); }
-
-  private:
-    std::string_view rest_;
-};
-
-/// Minutes east of Greenwich: "Z", "+05:45", "-0500" or "+01".
-bool parseZone(TimeText& text, int& zone_min) {
-    zone_min = 0;
-    if (text.skip('Z') || text.skip('z')) return true;
-    const bool east = text.skip('+');
-    if (!east && !text.skip('-')) return false;
-    int hours = 0, minutes = 0;
-    if (!text.digits(2, hours) || hours > 15) return false;
-    const bool colon = text.skip(':');
-    if (!(text.ended() && !colon) && (!text.digits(2, minutes) || minutes > 59)) return false;
-    zone_min = (east ? 1 : -1) * (60 * hours + minutes);
-    return true;
-}
-
-[[noreturn]] void failTime(std::string_view text, std::string_view problem, const std::string& where) {
-    throw InputError(
-        fmt::format("{}: the time '{}' {}, for instance 2026-06-21T13:00+01:00", where, text, problem));
-}
 
 double seenAltitude_deg(const SunPosition& position, const SunSetting& setting) {
     return setting.refraction ? position.refracted_altitude_deg : position.altitude_deg;
@@ -88,31 +33,7 @@ void requirePlace(double latitude_deg, double longitude_deg, const std::string& 
 }
 
 double parseSunTime(std::string_view text, const std::string& where) {
-    TimeText rest(text);
-    int year = 0, month = 0, day = 0, hour = 0, minute = 0, whole_s = 0, zone_min = 0;
-    const auto separator = [&] { return rest.skip('T') || rest.skip('t') || rest.skip(' '); };
-    if (!(rest.digits(4, year) && rest.skip('-') && rest.digits(2, month) && rest.skip('-') &&
-          rest.digits(2, day) && separator() && rest.digits(2, hour) && rest.skip(':') &&
-          rest.digits(2, minute)))
-        failTime(text, "is not YYYY-MM-DDTHH:MM and a zone", where);
-    double second = 0;
-    if (rest.skip(':')) {
-        if (!rest.digits(2, whole_s)) failTime(text, "is not YYYY-MM-DDTHH:MM:SS and a zone", where);
-        second = whole_s + rest.fraction();
-    }
-    if (rest.ended()) failTime(text, "has no zone: end it with Z or an offset from UTC", where);
-    if (!parseZone(rest, zone_min) || !rest.ended())
-        failTime(text, "does not end with a zone, Z or an offset from UTC", where);
-
-    const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(unsigned(month)),
-                                           std::chrono::day(unsigned(day))};
-    if (!date.ok() || hour > 23 || minute > 59 || second >= 61)
-        failTime(text, "is no moment of the calendar", where);
-    constexpr int firstYear = 1900, lastYear = 2100;  // of the series of Earth's path
-    if (year < firstYear || year > lastYear) failTime(text, "lies outside the years 1900 to 2100", where);
-    constexpr double modifiedJulianOf1970 = 40587;
-    const double days = modifiedJulianOf1970 + double(std::chrono::sys_days(date).time_since_epoch().count());
-    return days + ((hour * 60 + minute - zone_min) * 60 + second) / 86400;
+    return utcDaysOf(parseSunClock(text, where));
 }
 
 SunPlace parseSunPlace(std::string_view text, const std::string& where) {
@@ -169,6 +90,19 @@ Light sunLight(const std::string& name, const SunPlace& place, const SunSetting&
         glm::mat4(worldFromDistantLight(position.azimuth_deg + setting.north_deg, altitude_deg)));
     light.emission.value =
         glm::vec3(radianceFromIlluminance_nits(float(position.illuminance_lux), light.shape.angle_rad));
+    light.sun = {.latitude_deg = place.latitude_deg,
+                 .longitude_deg = place.longitude_deg,
+                 .time = textOf(clockOf(place.utc_days)),
+                 .setting = setting};
+    return light;
+}
+
+Light sunLight(const std::string& name, const SunOrigin& origin, const std::string& where) {
+    requirePlace(origin.latitude_deg, origin.longitude_deg, where);
+    const SunPlace place{origin.latitude_deg, origin.longitude_deg, parseSunTime(origin.time, where)};
+    Light light = sunLight(name, place, origin.setting, where);
+    light.emission.value *= origin.multiplier;
+    light.sun = origin;
     return light;
 }
 

@@ -33,21 +33,13 @@ struct SunPosition {
 /// Latitude and longitude in degrees. Throws InputError "WHERE: ..." beyond their ranges.
 void requirePlace(double latitude_deg, double longitude_deg, const std::string& where);
 
-/// "2026-06-21T12:00Z" or with seconds and an offset, "2026-06-21T13:00:30+01:00", as days (see SunPlace).
-/// Throws InputError "WHERE: ..." for what is no such time, has no zone, or lies outside 1900 to 2100.
+/// As parseSunClock (sun_clock.h), in days (see SunPlace).
 double parseSunTime(std::string_view text, const std::string& where);
 
 /// "LAT,LON,ISO-TIME"; throws InputError "WHERE: ...".
 SunPlace parseSunPlace(std::string_view text, const std::string& where);
 
 SunPosition sunPosition(const SunPlace& place);
-
-/// How a scene lies, and what of the air counts.
-struct SunSetting {
-    /// Clockwise, seen from above, from the scene's -Z to north.
-    double north_deg = 0;
-    bool refraction = true;
-};
 
 /// Where a distant light stands: degrees clockwise, seen from above, from -Z, and above the horizon. It
 /// shines the other way.
@@ -59,8 +51,11 @@ bool isRisen(const SunPosition& position, const SunSetting& setting);
 /// Throws InputError "WHERE: ..." where the sun is below the horizon.
 void requireRisen(const SunPlace& place, const SunSetting& setting, const std::string& where);
 
-/// A distant light. Throws InputError as requireRisen does.
+/// A distant light that knows what sun it is (Light::sun). Throws InputError as requireRisen does.
 Light sunLight(const std::string& name, const SunPlace& place, const SunSetting& setting,
                const std::string& where);
+
+/// The same, from what a file says. Throws InputError "WHERE: ..." for whatever is wrong with it.
+Light sunLight(const std::string& name, const SunOrigin& origin, const std::string& where);
 
 }  // namespace penumbra::studio

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "studio/errors.h"
+#include "studio/scene/sun/sun_clock.h"
 
 namespace penumbra::studio {
 namespace {
@@ -135,6 +136,36 @@ TEST(Sun, ShinesFromThereIntoTheScene) {
     const double sine = std::sin(0.5 * light.shape.angle_rad);
     EXPECT_NEAR(light.emission.value.x * std::numbers::pi * sine * sine,
                 sunPosition(parseSunPlace(known[0].place, "--sun")).illuminance_lux, 10);
+}
+
+TEST(Sun, ClocksAreReadAndWritten) {
+    for (const char* text : {"2026-06-21T13:00+01:00", "1955-05-08T18:40:31Z", "2024-02-29T00:00-03:30",
+                             "2100-12-31T23:59:59+14:00"}) {
+        const SunClock clock = parseSunClock(text, "t");
+        EXPECT_EQ(textOf(clock), text);
+        EXPECT_EQ(utcDaysOf(clock), parseSunTime(text, "t"));
+        EXPECT_NEAR(utcDaysOf(clockOf(utcDaysOf(clock))), utcDaysOf(clock), 1e-9) << text;
+    }
+    SunClock clock = parseSunClock("2024-02-29T12:00Z", "t");
+    EXPECT_EQ(dayOfYear(clock), 60);
+    clock.year = 2023;  // which has no such day
+    setDayOfYear(clock, dayOfYear(clock));
+    EXPECT_EQ(textOf(clock), "2023-03-01T12:00Z");
+    setDayOfYear(clock, 366);
+    EXPECT_EQ(textOf(clock), "2023-12-31T12:00Z");
+    setDayOfYear(clock, 1);
+    EXPECT_EQ(textOf(clock), "2023-01-01T12:00Z");
+}
+
+TEST(Sun, KnowsWhatItIs) {
+    const Light light = sunLight("sun", parseSunPlace("52.52,13.405,2026-06-21T13:00+02:00", "--sun"),
+                                 {.north_deg = 20}, "--sun");
+    ASSERT_TRUE(light.sun);
+    EXPECT_EQ(light.sun->time, "2026-06-21T11:00Z");
+    EXPECT_EQ(light.sun->setting.north_deg, 20);
+    const Light again = sunLight("sun", *light.sun, "again");
+    EXPECT_EQ(again.shape.worldFromLight, light.shape.worldFromLight);
+    EXPECT_EQ(again.emission.value, light.emission.value);
 }
 
 }  // namespace

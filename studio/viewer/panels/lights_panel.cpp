@@ -12,7 +12,7 @@
 namespace penumbra::studio::viewer {
 namespace {
 
-const std::vector<std::string> shapeNames = {"rect", "disk", "sphere", "distant"};
+const std::vector<std::string> shapeNames = {"rect", "disk", "sphere", "distant", "tube"};
 
 std::string unitOf(const Light& light) {
     switch (light.emission.unit) {
@@ -42,6 +42,10 @@ bool editSizes(Ui& ui, Light& light) {
         case LightShape::disk:
         case LightShape::sphere:
             return edit("radius (m)", &AreaLight::radius_m, 1e4f);
+        case LightShape::cylinder: {
+            const bool length = edit("length (m)", &AreaLight::length_m, 1e4f);
+            return edit("radius (m)", &AreaLight::radius_m, 1e4f) || length;
+        }
         case LightShape::distant:
             return edit("angle (deg)", &AreaLight::angle_rad, 180, glm::degrees(1.0f));
     }
@@ -75,15 +79,18 @@ bool editPlace(Ui& ui, Light& light) {
     return changed;
 }
 
-bool editLight(Ui& ui, Light& light) {
+bool editLight(Ui& ui, Light& light, Requests& requests) {
     bool changed = ui.text("name", light.name);
     int shape = int(light.shape.shape);
     if (ui.combo("shape", shape, shapeNames)) {
         changeShape(light, LightShape(shape));
         changed = true;
     }
-    changed |= editSizes(ui, light);
-    changed |= editEmission(ui, light);
+    if (light.shape.shape == LightShape::distant) changed |= editSun(ui, light, requests);
+    if (!light.sun) {
+        changed |= editSizes(ui, light);
+        changed |= editEmission(ui, light);
+    }
     changed |= editPlace(ui, light);
     changed |= ui.checkbox("casts shadow", light.castsShadow);
     if (light.shape.shape == LightShape::rect || light.shape.shape == LightShape::disk) {
@@ -176,7 +183,7 @@ void drawLightsPanel(Ui& ui, Session& session, WindowState& windowState, Request
         ImGui::PushItemWidth(150 * ui.scale());
         const std::string nameBefore = lights[selected].name;
         chooseTechniqueOf(ui, session, lights[selected]);
-        const bool otherwise = editLight(ui, lights[selected]);
+        const bool otherwise = editLight(ui, lights[selected], requests);
         if (editProfile(ui, lights[selected], windowState, requests) || otherwise) {
             auto& own = session.choices().techniqueOfLight;
             session.editLights(lights);

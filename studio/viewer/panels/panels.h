@@ -40,6 +40,8 @@ void drawMenuBar(Ui& ui, Session& session, const Settings& settings, WindowState
                  Requests& requests);
 void drawTechniquePanel(Ui& ui, Session& session, Settings& settings, WindowState& windowState);
 void drawLightsPanel(Ui& ui, Session& session, WindowState& windowState, Requests& requests);
+/// A distant light's; returns whether it is another now. At night it stays where it was, and why is said.
+bool editSun(Ui& ui, Light& light, Requests& requests);
 void drawComparePanel(Ui& ui, Session& session);
 void drawColorsPanel(Ui& ui, Session& session);
 void drawInsightPanel(Ui& ui, Session& session, WindowState& windowState,

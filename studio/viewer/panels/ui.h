@@ -19,6 +19,7 @@ namespace penumbra::studio::viewer {
 struct Requests {
     std::optional<std::string> open;
     std::optional<std::string> profile;  ///< a luminaire's file, for the light that is chosen
+    std::optional<std::string> problem;  ///< to be shown
     bool undo = false, redo = false, saveLights = false, copyCommand = false, savePicture = false,
          saveCanvas = false, record = false, stopRecording = false, frameAll = false, resetCamera = false,
          reloadShaders = false, quit = false;
