@@ -54,11 +54,23 @@ vec4 surfacesAbove(sampler2DArray maps, MapReceiver r, vec2 place) {
         over_m = along / max(nearness, 1e-30) - height;
     }
     bvec4 isAbove = greaterThan(over_m, r.tolerance_m * max(abs(along), height < 0.0 ? 0.0 : leastCosine));
-    return mix(vec4(nothingAbove), nearness, bvec4(ivec4(isAbove) * ivec4(greaterThan(stored, vec4(0.0)))));
+    // Maps of the farthest surfaces hold 1 where there is none.
+    bvec4 isSurface = equal(stored, clamp(stored, 1e-30, 1.0 - 1e-7));
+    return mix(vec4(nothingAbove), nearness, bvec4(ivec4(isAbove) * ivec4(isSurface)));
 }
 
-// `highest`: the nearness up to which blockers are looked for.
-Proof proofOf(sampler2DArray maps, MapReceiver r, LightFigure light, float highest) {
+float highestOf(vec4 surfaces) { return max(max(surfaces.x, surfaces.y), max(surfaces.z, surfaces.w)); }
+
+// Whether a ray goes through the surface that has been seen beside it, `rise` above the receiver: if, where the ray is as
+// high, that is still there.
+bool goesThrough(sampler2DArray maps, MapReceiver r, vec2 here, vec2 way, float nearness, float top) {
+    float rise = top - nearness;
+    return rise > 0.0 && highestOf(abs(surfacesAbove(maps, r, here + way * rise) - top)) < proofSlope * rise;
+}
+
+// `highest`: the nearness up to which blockers are looked for. Where `hasFarthest`, other maps hold the farthest surfaces.
+Proof proofOf(sampler2DArray maps, sampler2DArray farthestMaps, bool hasFarthest, MapReceiver r, LightFigure light,
+              float highest) {
     bool isDistant = r.depth.isOrthographic;
     vec2 here = isDistant ? r.posFace.xy : r.posFace.xy / r.posFace.z;
     float nearness = isDistant ? -r.posFace.z : 1.0 / r.posFace.z;
@@ -76,16 +88,16 @@ Proof proofOf(sampler2DArray maps, MapReceiver r, LightFigure light, float highe
         for (int k = 1; k <= proofHeights; ++k) {
             float above = rise * (k == proofHeights ? float(k) : float(k) - earlier);  // what is highest is found by all
             vec2 place = here + way * above;
-            vec4 surfaces = surfacesAbove(maps, r, place);
-            float top = max(max(surfaces.x, surfaces.y), max(surfaces.z, surfaces.w));
+            float top = highestOf(surfacesAbove(maps, r, place));
             bool isInWindow = all(greaterThan(place, r.window.min)) && all(lessThan(place, windowMax));
             // Whatever it has passed since the last place counts.
             isFree = isFree && isInWindow && top < nearness + above - rise;
-            // Where it is as high as what has been found, that must still be there.
-            if (top <= nearness) continue;
-            place = here + way * (top - nearness);
-            vec4 apart = abs(surfacesAbove(maps, r, place) - top);
-            isBlocked = isBlocked || max(max(apart.x, apart.y), max(apart.z, apart.w)) < proofSlope * (top - nearness);
+            isBlocked = isBlocked || goesThrough(maps, r, here, way, nearness, top);
+            // A loop, since software rasterizers run both sides of a branch.
+            for (int second = 0; second < int(hasFarthest); ++second) {
+                float farthest = highestOf(surfacesAbove(farthestMaps, r, place));
+                isBlocked = isBlocked || goesThrough(farthestMaps, r, here, way, nearness, farthest);
+            }
         }
         known += 1.0;
         if (isFree) free += 1.0;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "src/techniques/shadow_width_map/map_cameras.h"
+#include "src/techniques/common/overlapping_casters.h"
 
 namespace penumbra::shadow_width_map {
 namespace {
@@ -87,7 +87,7 @@ void ExactWidths::make(const ShadowInputs& inputs, const LightSpaceScene& scene,
     kinds_ = innerEdges_ && isAnyBoth ? 2 : 1;
     mapCount_ = depthMap.count();
     if (innerEdges_ && hiddenEdges_) {
-        const std::pmr::vector<Caster> hiding = castersThatHideEdges(inputs, scene, cameras);
+        const std::pmr::vector<Caster> hiding = overlappingCasters(inputs, scene, cameras);
         if (!hiding.empty()) {
             const auto pass = timers.pass("shadow-width/farthest map");
             kinds_ = 3;

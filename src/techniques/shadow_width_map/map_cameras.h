@@ -23,10 +23,4 @@ void appendMapKey(std::pmr::vector<double>& key, const ShadowInputs& inputs, con
 double planeBehindCasters_m(const ShadowInputs& inputs, const LightSpaceScene& scene,
                             std::span<const LightCamera> cameras);
 
-/// The casters, without those that nothing receives behind, if any two of the rest overlap as a camera sees
-/// them, so that edges of one may be hidden by the other; else none. By their bounding boxes; as many as the
-/// input's, those left out do not cast.
-std::pmr::vector<Caster> castersThatHideEdges(const ShadowInputs& inputs, const LightSpaceScene& scene,
-                                              std::span<const LightCamera> cameras);
-
 }  // namespace penumbra::shadow_width_map

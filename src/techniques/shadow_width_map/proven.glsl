@@ -20,5 +20,6 @@ float proven(Receiver receiver, Receiving r, float seen) {
         MapReceiver(r.camera, window, r.depth, r.posFace, normalFace, mapTolerance_m(texel_m, r.posFace));
     LightFigure light = LightFigure(constants.light.shape, turnedToFace(r.camera, constants.halfAxisX),
                                     turnedToFace(r.camera, constants.halfAxisY), constants.radius);
-    return within(proofOf(depthMaps, mapped, light, max(highestBlocker(r), r.nearness)), seen);
+    float highest = max(highestBlocker(r), r.nearness);
+    return within(proofOf(depthMaps, farthestMaps, kinds > 2, mapped, light, highest), seen);
 }

@@ -11,6 +11,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/common/map_proof.glsl"
 #include "src/techniques/smoothies/tiles.glsl"
 
+uniform sampler2DArray farthestMaps;
 uniform writeonly image2D visibility;
 
 // A sliver of a light above the horizon is taken for none: the quotient of two such parts is all noise.
@@ -77,7 +78,7 @@ void main() {
         if (isOfLight(l.camera)) {
             SmoothieConstants c = smoothies[l.camera];
             MapReceiver mapped = MapReceiver(l.camera, c.camera.window, c.camera.depth, l.point.posFace, l.normalFace, l.tolerance_m);
-            seen = within(proofOf(depthMaps, mapped, lightFigure(l.camera), highest), seen);
+            seen = within(proofOf(depthMaps, farthestMaps, picture.hasFarthestMaps, mapped, lightFigure(l.camera), highest), seen);
         }
     }
 #ifdef COLORED

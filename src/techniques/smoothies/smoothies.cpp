@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "src/techniques/common/overlapping_casters.h"
+
 namespace penumbra::smoothies {
 namespace {
 
@@ -37,6 +39,7 @@ Smoothies::PicturePrograms::PicturePrograms(Device& device, const std::string& f
 Smoothies::Smoothies(Device& device)
     : device_(internalsOf(device)),
       depthMap_(device),
+      farthestMap_(device),
       maskedMap_(device),
       receiverMap_(device),
       silhouettes_(device),
@@ -98,6 +101,15 @@ void Smoothies::drawMaps(const ShadowInputs& inputs, const LightSpaceScene& scen
                              return caster.casts && !(hasMaskedMap_ && isMasked(caster));
                          }),
                          scene, cameras, settings_.mapSize_px);
+    }
+    // What lies hidden beneath another caster blocks light that comes in past that one.
+    std::pmr::vector<Caster> overlapping = overlappingCasters(inputs, scene, cameras);
+    for (Caster& caster : overlapping) caster.casts = caster.casts && !isMasked(caster);
+    hasFarthestMap_ = hasSmoothies_ && std::ranges::any_of(overlapping, &Caster::casts);
+    if (hasFarthestMap_) {
+        const auto pass = timers_.pass("smoothies/farthest map");
+        farthestMap_.render(overlapping, scene, cameras, settings_.mapSize_px,
+                            DepthMap::Surface::farthestFront);
     }
     if (hasMaskedMap_) {
         const auto pass = timers_.pass("smoothies/masked map");
@@ -172,7 +184,8 @@ PictureConstants Smoothies::pictureConstants(const ShadowInputs& inputs) const {
     return {.light = lightConstants(inputs.light),
             .mapCount = depthMap_.count(),
             .hasSmoothies = hasSmoothies_,
-            .capacity = glm::uint(silhouettes_.edgeCount())};
+            .capacity = glm::uint(silhouettes_.edgeCount()),
+            .hasFarthestMaps = hasFarthestMap_};
 }
 
 void Smoothies::resolve(const ShadowInputs& inputs, const VisibilityBuffer& out) {
@@ -205,6 +218,7 @@ void Smoothies::resolve(const ShadowInputs& inputs, const VisibilityBuffer& out)
         .bind("SmoothieBlock", constants_, 0, maxSmoothieCameras * sizeof(SmoothieConstants))
         .bind("deepestEdges", buffer_.deepestEdges())
         .bind("SmoothieEdges", construction_.edges())
+        .bind("farthestMaps", hasFarthestMap_ ? farthestMap_.texture().ref() : gl::TextureRef{})
         .bind("Tiles", tiles_)
         .bind("visibility", imageOf(out));
     if (out.colored()) resolving.bind("lightProfile", lightProfile_);

@@ -54,7 +54,8 @@ class Smoothies final : public Technique {
     SmoothieSettings settings_;
 
     Device::Internals& device_;
-    DepthMap depthMap_, maskedMap_, receiverMap_;
+    DepthMap depthMap_, farthestMap_, maskedMap_, receiverMap_;
+    bool hasFarthestMap_ = false;
     bool hasMaskedMap_ = false;
     bool hasReceiverMap_ = false;
     SilhouetteExtractor silhouettes_;

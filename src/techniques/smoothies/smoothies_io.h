@@ -61,6 +61,7 @@ SHARED_STRUCT PictureConstants {
     bool32 hasSmoothies;    // without: a hard shadow
     uint capacity;          // edges for each camera
     float nearestNearness;  // of all blockers that have holes
+    bool32 hasFarthestMaps; // of what may be hidden beneath another caster
 };
 
 #ifdef __cplusplus
