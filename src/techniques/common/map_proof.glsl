@@ -59,13 +59,19 @@ vec4 surfacesAbove(sampler2DArray maps, MapReceiver r, vec2 place) {
     return mix(vec4(nothingAbove), nearness, bvec4(ivec4(isAbove) * ivec4(isSurface)));
 }
 
+bool isInWindow(MapReceiver r, vec2 place) {
+    vec2 uv = (place - r.window.min) * r.window.perExtent;
+    return all(greaterThan(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)));
+}
+
 float highestOf(vec4 surfaces) { return max(max(surfaces.x, surfaces.y), max(surfaces.z, surfaces.w)); }
 
 // Whether a ray goes through the surface that has been seen beside it, `rise` above the receiver: if, where the ray is as
 // high, that is still there.
 bool goesThrough(sampler2DArray maps, MapReceiver r, vec2 here, vec2 way, float nearness, float top) {
     float rise = top - nearness;
-    return rise > 0.0 && highestOf(abs(surfacesAbove(maps, r, here + way * rise) - top)) < proofSlope * rise;
+    vec2 place = here + way * rise;
+    return rise > 0.0 && isInWindow(r, place) && highestOf(abs(surfacesAbove(maps, r, place) - top)) < proofSlope * rise;
 }
 
 // `highest`: the nearness up to which blockers are looked for. Where `hasFarthest`, other maps hold the farthest surfaces.
@@ -75,7 +81,6 @@ Proof proofOf(sampler2DArray maps, sampler2DArray farthestMaps, bool hasFarthest
     vec2 here = isDistant ? r.posFace.xy : r.posFace.xy / r.posFace.z;
     float nearness = isDistant ? -r.posFace.z : 1.0 / r.posFace.z;
     float rise = (highest - nearness) / float(proofHeights);
-    vec2 windowMax = r.window.min + 1.0 / r.window.perExtent;
     float known = 0.0, free = 0.0, blocked = 0.0;
     for (int i = 0; i < proofRays; ++i) {
         // Along either axis they are as far apart as so many can be, so that none is far from the light's border.
@@ -89,9 +94,8 @@ Proof proofOf(sampler2DArray maps, sampler2DArray farthestMaps, bool hasFarthest
             float above = rise * (k == proofHeights ? float(k) : float(k) - earlier);  // what is highest is found by all
             vec2 place = here + way * above;
             float top = highestOf(surfacesAbove(maps, r, place));
-            bool isInWindow = all(greaterThan(place, r.window.min)) && all(lessThan(place, windowMax));
             // Whatever it has passed since the last place counts.
-            isFree = isFree && isInWindow && top < nearness + above - rise;
+            isFree = isFree && isInWindow(r, place) && top < nearness + above - rise;
             isBlocked = isBlocked || goesThrough(maps, r, here, way, nearness, top);
             // A loop, since software rasterizers run both sides of a branch.
             for (int second = 0; second < int(hasFarthest); ++second) {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// No penumbra is better than a wrong one: what a technique shows, held against `hard`.
+#pragma once
+
+#include "tests/support/technique_test.h"
+
+namespace penumbra::studio {
+
+class AgainstHardTest : public TechniqueTest {
+  protected:
+    static constexpr PictureSize size{160, 90};
+    static constexpr int rays = 64;
+    static constexpr double noise = 0.003;  ///< of the truth, over a picture
+    /// Of a picture: so much may be lit where it is umbra or dark where it is lit, more than with `hard`.
+    static constexpr double wrongShare = 0.0025;
+
+    /// The first light's visibility has no larger error than with `hard`, nor more pixels that are wrong.
+    static void expectNoWorse(std::string_view technique, const Scene& scene, std::string_view name) {
+        const LightResult exact = truth(scene, size, rays);
+        const VisibilityMetrics hard = judge(exact, render("hard", scene, size));
+        const VisibilityMetrics own = judge(exact, render(technique, scene, size));
+        EXPECT_LE(own.rmse, hard.rmse + noise) << name;
+        EXPECT_LE(wrong(own), wrong(hard) + wrongShare) << name;
+    }
+
+  private:
+    static double wrong(const VisibilityMetrics& metrics) {
+        const double pixels =
+            metrics.leak * double(metrics.umbraSamples) + metrics.false_shadow * double(metrics.litSamples);
+        return metrics.samples == 0 ? 0 : pixels / double(metrics.samples);
+    }
+};
+
+}  // namespace penumbra::studio
