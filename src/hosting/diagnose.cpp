@@ -9,6 +9,7 @@
 #include "src/device/input_checks.h"
 #include "src/geometry/caster_checks.h"
 #include "src/hosting/depth_agreement.h"
+#include "src/hosting/depth_step.h"
 #include "src/hosting/diagnose_in_scope.h"
 #include "src/hosting/host_view.h"
 #include "src/hosting/readings.h"
@@ -30,15 +31,13 @@ constexpr double noticedFactor = 0.004, noticedUnits = 24, noticedShift_px = 0.0
 HostDepths read(GLuint texture, const View& view, const View& asGiven) {
     HostDepths depths;
     depths.values.resize(std::size_t(view.width_px) * std::size_t(view.height_px));
-    GLint type = GL_NONE, bits = 0;
+    GLint type = GL_NONE;
     glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH_TYPE, &type);
     glGetTextureImage(texture, 0, type == GL_NONE ? GL_RED : GL_DEPTH_COMPONENT, GL_FLOAT,
                       GLsizei(depths.values.size() * sizeof(float)), depths.values.data());
     depths.background = view.depth.reversed ? 0.0f : 1.0f;
-    glGetTextureLevelParameteriv(asGiven.depthTexture, 0, GL_TEXTURE_DEPTH_TYPE, &type);
-    glGetTextureLevelParameteriv(asGiven.depthTexture, 0, GL_TEXTURE_DEPTH_SIZE, &bits);
-    constexpr int bitsOfFloats = 24;  // near 1
-    depths.leastDifference = std::exp2(-(type == GL_UNSIGNED_NORMALIZED ? bits : bitsOfFloats));
+    const double ofFloats = std::exp2(-24), step = fixedDepthStep(asGiven.depthTexture);  // near 1
+    depths.leastDifference = step > 0 ? step : ofFloats;
     return depths;
 }
 

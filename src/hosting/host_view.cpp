@@ -6,6 +6,7 @@
 #include "src/device/compatibility_state.h"
 #include "src/device/glm_types.h"
 #include "src/gl/texture_target.h"
+#include "src/hosting/depth_step.h"
 #include "src/hosting/readings.h"
 
 namespace penumbra {
@@ -32,10 +33,7 @@ glm::ivec2 sizeOf(GLuint texture) {
 /// (Those that llvmpipe draws are up to 3.8 * 2^-24 from where they should be.)
 double depthError(GLuint texture, bool reversed) {
     const double ofFloats = reversed ? 0 : 6 * std::exp2(-24);
-    GLint type = GL_NONE;
-    glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH_TYPE, &type);
-    if (type != GL_UNSIGNED_NORMALIZED) return ofFloats;
-    return ofFloats + std::exp2(-levelParameter(texture, GL_TEXTURE_DEPTH_SIZE));
+    return ofFloats + fixedDepthStep(texture);
 }
 
 /// The camera whose clip space lies `shift` (in normalised device coordinates) away: a point that this one

@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/hosting/offset_undoing.h"
 
-#include <cmath>
-
 #include "src/device/glm_types.h"
 #include "src/gl/pass.h"
+#include "src/hosting/depth_step.h"
 #include "src/hosting/offset_undoing_io.h"
 
 namespace penumbra {
-namespace {
-
-/// Of a depth of fixed bits, the least difference; 0 of floats, where it follows from the depth.
-double leastDifference(GLuint texture) {
-    GLint type = GL_NONE, bits = 0;
-    glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH_TYPE, &type);
-    glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH_SIZE, &bits);
-    return type == GL_UNSIGNED_NORMALIZED ? std::exp2(-bits) : 0;
-}
-
-}  // namespace
 
 OffsetUndoing::OffsetUndoing(Device::Internals& device)
     : program_(device.shaders, {"src/hosting/offset_undoing.comp.glsl"}) {}
@@ -49,7 +37,7 @@ void OffsetUndoing::run(View& plain, const View& view, const CasterPainter* cast
             .factor = view.polygonOffset.factor,
             .units = view.polygonOffset.units,
             // What the host drew into decides, and not a copy of it.
-            .leastDifference = float(leastDifference(view.depthTexture)),
+            .leastDifference = float(fixedDepthStep(view.depthTexture)),
             .background = view.depth.reversed ? 0.0f : 1.0f,
             .hasNormals = hasNormals,
             .hasCasters = casters != nullptr,
