@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studio/scene/builtin/builtin.h"
 #include "studio/scene/builtin/mesh_kit.h"
 #include "studio/scene/builtin/placing.h"
 #include "studio/scene/open_scene.h"
@@ -73,11 +74,13 @@ StageView viewOf(const Stage& stage, const Situation& situation) {
     }
     view.camera.yfov_rad = 2 * std::atan(std::tan(0.5f * view.camera.yfov_rad) / situation.zoom);
     for (Light& light : view.moment.lights) {
-        for (float* size :
-             {&light.shape.width_m, &light.shape.height_m, &light.shape.radius_m, &light.shape.angle_rad})
+        for (float* size : {&light.shape.width_m, &light.shape.height_m, &light.shape.length_m,
+                            &light.shape.radius_m, &light.shape.angle_rad})
             *size *= situation.lightScale;
     }
+    const bool isBuiltin = situation.model.empty() || !stage.standIn.empty();
     for (Instance& instance : view.moment.instances) {
+        if (isBuiltin && instance.node == groundNode) instance.casts = false;
         instance.receives = instance.receives && (situation.blockersReceive || !instance.casts);
     }
     return view;

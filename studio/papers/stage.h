@@ -16,8 +16,9 @@ struct Stage {
     std::string standIn;  ///< the built-in scene that stands in for a model that is not there; else empty
 };
 
-/// The scene of a situation: its model over a ground that only receives, if `models` has it, or its built-in
-/// scene. Throws InputError for a model that cannot be read.
+/// The scene of a situation: its model over a ground, if `models` has it, or its built-in scene. Grounds only
+/// receive, as the papers' do: what they publish draws none into its maps. Throws InputError for a model that
+/// cannot be read.
 Stage openStage(const Situation& situation, const std::filesystem::path& models);
 
 /// The moment and camera that a situation asks of its scene.

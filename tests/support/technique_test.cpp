@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "studio/scene/builtin/builtin.h"
+
 namespace penumbra::studio {
 namespace {
 
@@ -95,7 +97,7 @@ Scene withMoment(Scene scene, const std::function<void(SceneMoment&)>& change) {
 }
 
 bool isGround(const Instance& instance) {
-    return instance.node == 0;
+    return instance.node == groundNode;
 }
 
 Scene onReceivingGround(Scene scene) {
@@ -117,7 +119,8 @@ Scene withAlphaMask(Scene scene, Picture picture) {
 }
 
 void shrinkToPoint(Light& light) {
-    light.shape.width_m = light.shape.height_m = light.shape.radius_m = light.shape.angle_rad = 0;
+    light.shape.width_m = light.shape.height_m = light.shape.length_m = 0;
+    light.shape.radius_m = light.shape.angle_rad = 0;
     light.texture = -1;
     light.emission.unit =
         light.shape.shape == LightShape::distant ? Emission::Unit::lux : Emission::Unit::candela;

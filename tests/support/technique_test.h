@@ -73,7 +73,7 @@ Scene withLight(Scene scene, const std::function<void(Light&)>& change);
 /// The scene as `change` leaves each of its moments.
 Scene withMoment(Scene scene, const std::function<void(SceneMoment&)>& change);
 
-/// Whether it is a built-in scene's ground or room, which is its first node.
+/// Whether it is a built-in scene's ground or room.
 bool isGround(const Instance& instance);
 
 /// The built-in scene with a ground or room that casts nothing, as the published techniques expect.

@@ -18,10 +18,14 @@ struct BuiltinInfo {
 /// All of them, in the order in which they are listed.
 std::span<const BuiltinInfo> builtinScenes();
 
+/// The index of a built-in scene's ground or room among its nodes.
+inline constexpr int groundNode = 0;
+
 /// Makes the scene of this name. Throws InputError with the nearest names if there is none.
 ///
 /// In metres, +Y up, the ground at y = 0. Of the closed-form scenes every
-/// blocker is a sheet without thickness; the blockers of the others are closed, but for the cloth and the lamp's shade.
+/// blocker is a sheet without thickness; the blockers of the others are closed, but for the cloth and the
+/// lamp's shade.
 Scene makeBuiltin(std::string_view name);
 
 }  // namespace penumbra::studio
