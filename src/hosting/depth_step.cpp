@@ -7,8 +7,8 @@
 namespace penumbra {
 
 double fixedDepthStep(GLuint texture) {
-    // Depths of 32 fixed bits are made of floats: llvmpipe's come in steps of 2^-24.
-    constexpr GLint mostBits = 24;
+    // Of 32 fixed bits shaders read fewer: llvmpipe's 23.
+    constexpr GLint mostBits = 23;
     GLint type = GL_NONE, bits = 0;
     glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH_TYPE, &type);
     glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH_SIZE, &bits);

@@ -5,8 +5,8 @@
 
 namespace penumbra {
 
-/// The least difference between depths of fixed bits that a driver writes into the texture, as a share of
-/// their range; 0 where they are floats, or it holds none.
+/// The least difference between depths of fixed bits that shaders can tell, as a share of their range; 0 where the
+/// texture holds floats, or no depths.
 double fixedDepthStep(GLuint texture);
 
 }  // namespace penumbra

@@ -10,7 +10,7 @@ class AgainstHardTest : public TechniqueTest {
   protected:
     static constexpr PictureSize size{160, 90};
     static constexpr int rays = 64;
-    static constexpr double noise = 0.003;  ///< of the truth, over a picture
+    static constexpr double sameError = 0.001;  ///< between errors against the same truth
     /// Of a picture: so much may be lit where it is umbra or dark where it is lit, more than with `hard`.
     static constexpr double wrongShare = 0.0025;
 
@@ -19,7 +19,7 @@ class AgainstHardTest : public TechniqueTest {
         const LightResult exact = truth(scene, size, rays);
         const VisibilityMetrics hard = judge(exact, render("hard", scene, size));
         const VisibilityMetrics own = judge(exact, render(technique, scene, size));
-        EXPECT_LE(own.rmse, hard.rmse + noise) << name;
+        EXPECT_LE(own.rmse, hard.rmse + sameError) << name;
         EXPECT_LE(wrong(own), wrong(hard) + wrongShare) << name;
     }
 
