@@ -20,7 +20,7 @@ TEST_F(ShadowWidthAgainstHardTest, IsNoWorseInScenesOfTheField) {
     for (const char* name :
          {"room-0", "room-1mm", "room-bulb", "lowsun-e1", "lowsun-e5", "terminator-terminator", "cube-large",
           "lamp-shade", "city-triangle", "pillar-base", "pillar-yaw20", "mirror-mirror", "desk-ww",
-          "ceiling-h27", "fixture-fixture", "pcss-wall-2.5", "window-open", "ground-boxes", "city-2"}) {
+          "ceiling-h27", "fixture-fixture", "pcss-wall-2.5", "window-open", "city-2"}) {
         expectNoWorse("shadow-width", openScene((*field / name).string() + ".glb"), name);
     }
 }

@@ -67,6 +67,17 @@ float seenFromCell(Receiving r, Footprint footprint, ivec2 cell, bool isBlocked,
     return seen;
 }
 
+// Whether the farthest blocker ends in sight, nearer than `width_px`: before nothing, or before what is no blocker, as a ground.
+bool endsBefore(Receiving r, ivec2 cell, float width_px) {
+    float cell_px = float(constants.cell_px);
+    vec2 toOutline = nearestOnEdge(texelFetch(nearestEdges, ivec3(cell, r.camera), 0), r.place_px, cell_px) - r.place_px;
+    if (length(toOutline) < width_px) return true;
+    uvec4 inner = texelFetch(nearestEdges, ivec3(cell, r.camera + mapCount), 0);
+    if (!isEdge(inner)) return false;
+    vec2 toInner = nearestOnEdge(inner, r.place_px, cell_px) - r.place_px;
+    return length(toInner) < width_px && texelFetch(farthestMaps, ivec3(texelBehind(inner), r.camera), 0).r == 1.0;
+}
+
 // What the farthest blocker lets through where it ends beneath another. Nothing of it is in sight there: the outlines near by
 // are the other's. But where an outline is nearer, that is its own.
 float seenPastHidden(Receiving r, Footprint footprint, ivec2 cell) {
@@ -76,11 +87,7 @@ float seenPastHidden(Receiving r, Footprint footprint, ivec2 cell) {
     ivec2 texel = ivec2(r.place_px);
     float farthest = texelFetch(farthestMaps, ivec3(texel, r.camera), 0).r;
     bool isBeneath = farthest < 0.5 * (storedAtEdge(hidden) + storedBehindEdge(hidden));
-    if (isBeneath) {
-        vec2 toOutline = nearestOnEdge(texelFetch(nearestEdges, ivec3(cell, r.camera), 0), r.place_px,
-                                       float(constants.cell_px)) - r.place_px;
-        if (length(toOutline) < division.width_px || !isAbove(r, texel, farthest)) return 1.0;
-    }
+    if (isBeneath && (!isAbove(r, texel, farthest) || endsBefore(r, cell, division.width_px))) return 1.0;
     return seenPast(r, footprint, hidden, division, storedNearness(r.depth, storedAtEdge(hidden)), isBeneath);
 }
 

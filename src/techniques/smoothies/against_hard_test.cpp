@@ -23,7 +23,7 @@ TEST_F(SmoothiesAgainstHardTest, IsNoWorseInScenesOfTheField) {
                              "pillar-base",      "pillar-yaw20",  "mirror-mirror",
                              "close-wallwasher", "desk-ww",       "ceiling-h27",
                              "fixture-fixture",  "pcss-wall-2.5", "window-open",
-                             "lamp-bulb",        "ground-boxes",  "city-2"}) {
+                             "lamp-bulb",        "ground-boxes"}) {
         expectNoWorse("smoothies", openScene((*field / name).string() + ".glb"), name);
     }
 }
