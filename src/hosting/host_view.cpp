@@ -33,7 +33,9 @@ glm::ivec2 sizeOf(GLuint texture) {
 /// (Those that llvmpipe draws are up to 3.8 * 2^-24 from where they should be.)
 double depthError(GLuint texture, bool reversed) {
     const double ofFloats = reversed ? 0 : 6 * std::exp2(-24);
-    return ofFloats + fixedDepthStep(texture);
+    // What is cut off a depth that is not reversed brings it nearer.
+    const bool isOnlyNearer = !reversed && levelParameter(texture, GL_TEXTURE_DEPTH_SIZE) > bitsReadWhole;
+    return isOnlyNearer ? ofFloats : ofFloats + fixedDepthStep(texture);
 }
 
 /// The camera whose clip space lies `shift` (in normalised device coordinates) away: a point that this one

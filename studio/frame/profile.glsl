@@ -117,31 +117,33 @@ float profiledDisk(ProfileConstants profile, vec3 pos, vec3 normal, float radius
     return sum / float(rings * sectors);
 }
 
-// Over what a tube shows: points along it, on lines that look alike far from each other.
+// Over what a tube shows. Candela by its share of what is seen from afar: points evenly across its width. Luminance in the plane
+// of its outline, by what each line there meets.
 float profiledTube(ProfileConstants profile, vec3 pos, vec3 normal, float halfLength_m, float radius_m) {
     SeenTube seen = seeTube(pos, radius_m);
     if (seen.away <= radius_m) return 0.0;
     float distance_m = length(vec2(max(abs(pos.x) - halfLength_m, 0.0), seen.away - radius_m));
     ivec2 points = ivec2(pointsAlong(2.0 * halfLength_m, distance_m), pointsAlong(2.0 * radius_m, distance_m));
     float along2 = seen.away * seen.plane, beyond = (seen.away - radius_m) * (seen.away + radius_m);
-    float sum = 0.0, whole = 0.0;
+    float sum = 0.0;
     for (int y = 0; y < points.y; ++y) {
-        // Where the way to a line of the outline meets the tube, as a share of it: the line looks longer by as much.
         float aside = (2.0 * (float(y) + 0.5) / float(points.y) - 1.0) * seen.halfWidth;
-        float length2 = seen.plane * seen.plane + aside * aside;
-        float share = beyond / (along2 + sqrt(max(along2 * along2 - length2 * beyond, 0.0)));
-        vec3 line = vec3(0.0, pos.yz) + share * (seen.plane * seen.ahead + aside * seen.aside);
+        vec3 line = aside * seen.aside - sqrt(max(radius_m * radius_m - aside * aside, 0.0)) * seen.ahead;
+        float share = 1.0;  // of the way to a place of the outline, where it meets the tube
+        if (!profile.isLuminaire) {
+            float length2 = seen.plane * seen.plane + aside * aside;
+            share = beyond / (along2 + sqrt(max(along2 * along2 - length2 * beyond, 0.0)));
+            line = vec3(0.0, pos.yz) + share * (seen.plane * seen.ahead + aside * seen.aside);
+        }
         for (int x = 0; x < points.x; ++x) {
             float along = (2.0 * (float(x) + 0.5) / float(points.x) - 1.0) * halfLength_m;
             vec3 point = line + vec3(along, 0.0, 0.0);
             float part = fromPoint(profile, pos, normal, point, false);
-            // Of candela by the outline's share; of luminance as of what lies in its plane.
-            sum += part * (profile.isLuminaire ? 1.0 / share : seen.plane * share * share / distance(point, pos));
-            whole += 1.0 / share;
+            sum += profile.isLuminaire ? part : part * seen.plane * share * share / distance(point, pos);
         }
     }
-    return profile.isLuminaire ? sum / whole
-                               : sum / float(points.x * points.y) * 4.0 * halfLength_m * seen.halfWidth;
+    float mean = sum / float(points.x * points.y);
+    return profile.isLuminaire ? mean : mean * 4.0 * halfLength_m * seen.halfWidth;
 }
 
 float profiledIrradiance(ProfileConstants profile, int shape, bool isPoint, vec2 halfSize_m, float radius_m, vec3 pos,
