@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studio/frame/shaders.h"
 #include "studio/viewer/shaders.h"
 #include "studio/workbench/reference_inputs.h"
 
@@ -17,6 +18,7 @@ constexpr auto settling = std::chrono::milliseconds(150);
 
 gl::ShaderLibrary makeShaders(const std::filesystem::path& sourceDirectory) {
     gl::ShaderLibrary shaders(sourceDirectory);
+    shaders.add(frameShaders());  // the shapes of lights are theirs
     shaders.add(viewerShaders());
     return shaders;
 }
