@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "studio/image/atomic_file.h"
 #include "studio/image/image_io.h"
@@ -265,6 +266,70 @@ TEST_F(ViewerTest, TheSunStandsWhereAndWhenItIsAsked) {
     clickWidget("the sun of a place and time", 0.05);  // what it was is kept as a distant light
     EXPECT_FALSE(light().sun);
     EXPECT_EQ(light().shape.shape, LightShape::distant);
+}
+
+TEST_F(ViewerTest, AMakersFileMakesALightThatLuminaireWhereItIs) {
+    start(writeScene("box.gltf"));
+    session().editLights({rectLight("lamp", 0.2f, 0.2f, {0.1f, 1.5f, 0.2f}, {0.1f, 0, 0.2f}, 100)});
+    frames();
+    const Work before = session().work();
+    const std::string file = at("tube.ies");
+    writeFileAtomically(file,
+                        "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 1.2 -0.04 -0.04\n1 1 10\n0 90 180\n0\n"
+                        "500 300 20\n");
+    const char* paths[] = {file.c_str()};
+    GLFWwindow* window = viewer().window().handle();
+    const GLFWdropfun drop = glfwSetDropCallback(window, nullptr);
+    glfwSetDropCallback(window, drop);
+    drop(window, 1, paths);
+    frames();
+    const auto light = [&]() -> const Light& { return session().document().moment().lights.at(0); };
+    ASSERT_TRUE(light().profile) << viewer().windowState().message;
+    EXPECT_EQ(light().shape.shape, LightShape::cylinder);
+    EXPECT_NEAR(placeOfLight(session()).y, 1.5f, 1e-6);
+    const Mat4 frame = light().shape.worldFromLight;
+
+    // Its web, shown about its place: 500 cd downwards is the longest, and goes as far as a web does.
+    const auto web = candelaWeb(light(), session().document().bounds());
+    ASSERT_FALSE(web.empty());
+    float lowest = 1e9f, highest = -1e9f;
+    for (const auto& line : web) {
+        for (const glm::vec3& point : line) {
+            lowest = std::min(lowest, point.y - 1.5f);
+            highest = std::max(highest, point.y - 1.5f);
+        }
+    }
+    const float reach_m = session().document().bounds().radius() / 7;
+    EXPECT_NEAR(lowest, -reach_m, 1e-3f * reach_m);
+    // From 300 cd at 90 degrees to 20 cd at 180, along a line.
+    float upwards_cd = 0;
+    for (float above_deg = 0; above_deg <= 90; ++above_deg)
+        upwards_cd = std::max(upwards_cd, (300 - 280 * above_deg / 90) * std::sin(glm::radians(above_deg)));
+    EXPECT_NEAR(highest, upwards_cd / 500 * reach_m, 0.02f * reach_m);
+
+    clickWidget("x (m)", 0.2);  // what is clicked and not pulled stays
+    clickWidget("casts shadow", 0.1);
+    EXPECT_EQ(light().shape.worldFromLight, frame) << "no edit turns it once more";
+    key("ctrl+s");
+    const Image last = picture();
+    viewer_.reset();
+    start(at("box.gltf"));
+    EXPECT_EQ(light().shape.shape, LightShape::cylinder);
+    EXPECT_EQ(largestDifference(last, picture()), 0);
+
+    writeFileAtomically(file, "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3");
+    viewer_.reset();
+    start(at("box.gltf"));
+    const Work saved = session().work();
+    GLFWwindow* again = viewer().window().handle();
+    const GLFWdropfun dropAgain = glfwSetDropCallback(again, nullptr);
+    glfwSetDropCallback(again, dropAgain);
+    dropAgain(again, 1, paths);
+    frames();
+    EXPECT_EQ(session().work(), saved) << "a file that cannot be read changes nothing";
+    EXPECT_TRUE(viewer().windowState().messageIsError);
+    EXPECT_NE(viewer().windowState().message.find("tube.ies:"), std::string::npos)
+        << viewer().windowState().message;
 }
 
 }  // namespace
