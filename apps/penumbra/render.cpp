@@ -90,9 +90,7 @@ struct RenderArguments {
 
     /// Pictures of files are smooth where nothing else was asked; what is measured is not.
     bool isTerminatorSmooth() const {
-        const bool isFile =
-            std::ranges::find(builtinScenes(), scene.scene, &BuiltinInfo::name) == builtinScenes().end();
-        return smoothTerminator.value_or(isFile && visibility.empty());
+        return smoothTerminator.value_or(!isBuiltin(scene.scene) && visibility.empty());
     }
 };
 

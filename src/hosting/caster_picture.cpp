@@ -5,6 +5,7 @@
 
 #include "src/gl/pass.h"
 #include "src/hosting/caster_picture_io.h"
+#include "src/hosting/stored_depth.h"
 
 namespace penumbra {
 
@@ -27,12 +28,8 @@ CasterPainter::CasterPainter(Device::Internals& device, int width_px, int height
 
 void CasterPainter::paint(std::span<const Caster> casters, const Reading& reading) {
     // Our clip space is from 0 to 1, in which depths lie as they are stored.
-    glm::dmat4 storedFromClip(1);
-    if (reading.depth.range == DepthConvention::Range::minusOneToOne) {
-        storedFromClip[2][2] = 0.5;
-        storedFromClip[3][2] = 0.5;
-    }
-    const glm::dmat4 clipFromWorld = storedFromClip * reading.clipFromView * reading.viewFromWorld;
+    const glm::dmat4 clipFromWorld =
+        glm::inverse(clipFromStored(reading.depth)) * reading.clipFromView * reading.viewFromWorld;
     gl::Pass pass(program_);
     pass.into(framebuffer_, {.width_px = color_.width_px(),
                              .height_px = color_.height_px(),

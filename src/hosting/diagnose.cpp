@@ -9,10 +9,10 @@
 #include "src/device/input_checks.h"
 #include "src/geometry/caster_checks.h"
 #include "src/hosting/depth_agreement.h"
-#include "src/hosting/depth_step.h"
 #include "src/hosting/diagnose_in_scope.h"
 #include "src/hosting/host_view.h"
 #include "src/hosting/readings.h"
+#include "src/hosting/stored_depth.h"
 
 namespace penumbra {
 namespace {

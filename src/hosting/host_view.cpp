@@ -6,8 +6,8 @@
 #include "src/device/compatibility_state.h"
 #include "src/device/glm_types.h"
 #include "src/gl/texture_target.h"
-#include "src/hosting/depth_step.h"
 #include "src/hosting/readings.h"
+#include "src/hosting/stored_depth.h"
 
 namespace penumbra {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "src/device/glm_types.h"
 #include "src/gl/pass.h"
-#include "src/hosting/depth_step.h"
 #include "src/hosting/offset_undoing_io.h"
+#include "src/hosting/stored_depth.h"
 
 namespace penumbra {
 
@@ -13,12 +13,8 @@ OffsetUndoing::OffsetUndoing(Device::Internals& device)
 
 void OffsetUndoing::run(View& plain, const View& view, const CasterPainter* casters) {
     const bool hasNormals = plain.normalTexture != 0;
-    const bool isFromZero = view.depth.range == DepthConvention::Range::zeroToOne;
-    glm::dmat4 clipFromDepth(1);  // of normalised coordinates and the stored depth
-    clipFromDepth[2][2] = isFromZero ? 1 : 2;
-    clipFromDepth[3][2] = isFromZero ? 0 : -1;
     const glm::dmat4 worldFromDepth =
-        glm::inverse(toGlm(view.clipFromView) * toGlm(view.viewFromWorld)) * clipFromDepth;
+        glm::inverse(toGlm(view.clipFromView) * toGlm(view.viewFromWorld)) * clipFromStored(view.depth);
     undone_.fit({.width_px = view.width_px,
                  .height_px = view.height_px,
                  .format = gl::Format::r32f,

@@ -4,6 +4,7 @@
 #include "src/device/glm_types.h"
 #include "src/gl/pass.h"
 #include "src/hosting/smooth_surface_io.h"
+#include "src/hosting/stored_depth.h"
 
 namespace penumbra {
 
@@ -11,10 +12,7 @@ SmoothSurface::SmoothSurface(Device::Internals& device)
     : program_(device.shaders, {"src/hosting/smooth_surface.comp.glsl"}) {}
 
 void SmoothSurface::run(View& view) {
-    const bool isFromZero = view.depth.range == DepthConvention::Range::zeroToOne;
-    glm::dmat4 clipFromDepth(1);  // of normalised coordinates and the stored depth
-    clipFromDepth[2][2] = isFromZero ? 1 : 2;
-    clipFromDepth[3][2] = isFromZero ? 0 : -1;
+    const glm::dmat4 clipFromDepth = clipFromStored(view.depth);
     const glm::dmat4 clipFromView = toGlm(view.clipFromView);
     const auto fit = [&](gl::Texture& texture, gl::Format format, const char* label) {
         texture.fit(

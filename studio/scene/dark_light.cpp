@@ -18,7 +18,7 @@ namespace {
 constexpr int rays = 128;
 constexpr double most = 0.5, nearlyAll = 0.9;  ///< of the rays that could light something
 
-/// Whether a ray goes on to another node behind what it met at `distance_m`.
+/// Whether the ray goes on to another node behind what it met first.
 bool isAnythingBehind(const std::vector<RayTriangle>& triangles, const glm::vec3& from,
                       const glm::vec3& direction, const RayHit& met) {
     constexpr float beyond = 1 + 1e-5f;

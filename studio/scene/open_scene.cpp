@@ -65,10 +65,6 @@ class WithSun : public Scene::Motion {
     bool keepsLights_;
 };
 
-bool isBuiltin(const std::string& name) {
-    return std::ranges::find(builtinScenes(), name, &BuiltinInfo::name) != builtinScenes().end();
-}
-
 Scene openBuiltin(const std::string& name, const OpenOptions& options) {
     Scene scene = makeBuiltin(name);
     if (options.scene.value_or(0) != 0)

@@ -2,6 +2,10 @@
 // No penumbra is better than a wrong one: what a technique shows, held against `hard`.
 #pragma once
 
+#include <initializer_list>
+
+#include "studio/scene/builtin/builtin.h"
+#include "studio/scene/open_scene.h"
 #include "tests/support/technique_test.h"
 
 namespace penumbra::studio {
@@ -21,6 +25,19 @@ class AgainstHardTest : public TechniqueTest {
         const VisibilityMetrics own = judge(exact, render(technique, scene, size));
         EXPECT_LE(own.rmse, hard.rmse + sameError) << name;
         EXPECT_LE(wrong(own), wrong(hard) + wrongShare) << name;
+    }
+
+    static void expectNoWorseInBuiltinScenes(std::string_view technique) {
+        for (const BuiltinInfo& info : builtinScenes())
+            expectNoWorse(technique, makeBuiltin(info.name), info.name);
+    }
+
+    static void expectNoWorseInTheField(std::string_view technique,
+                                        std::initializer_list<const char*> scenes) {
+        const std::optional<std::filesystem::path> field = fieldScenes();
+        if (!field) GTEST_SKIP() << "no scenes of the field here";
+        for (const char* name : scenes)
+            expectNoWorse(technique, openScene((*field / name).string() + ".glb"), name);
     }
 
   private:

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/against_hard.h"
-#include "studio/scene/builtin/builtin.h"
-#include "studio/scene/open_scene.h"
 
 namespace penumbra::studio {
 namespace {
@@ -9,20 +7,16 @@ namespace {
 using ShadowWidthAgainstHardTest = AgainstHardTest;
 
 TEST_F(ShadowWidthAgainstHardTest, IsNoWorseWhereGroundsCast) {
-    for (const BuiltinInfo& info : builtinScenes())
-        expectNoWorse("shadow-width", makeBuiltin(info.name), info.name);
+    expectNoWorseInBuiltinScenes("shadow-width");
 }
 
 /// A sun low above posts: 0.194 where `hard` has 0.053 with a map for the whole picture.
 TEST_F(ShadowWidthAgainstHardTest, IsNoWorseInScenesOfTheField) {
-    const std::optional<std::filesystem::path> field = fieldScenes();
-    if (!field) GTEST_SKIP() << "no scenes of the field here";
-    for (const char* name :
-         {"room-0", "room-1mm", "room-bulb", "lowsun-e1", "lowsun-e5", "terminator-terminator", "cube-large",
-          "lamp-shade", "city-triangle", "pillar-base", "pillar-yaw20", "mirror-mirror", "desk-ww",
-          "ceiling-h27", "fixture-fixture", "pcss-wall-2.5", "window-open", "city-2"}) {
-        expectNoWorse("shadow-width", openScene((*field / name).string() + ".glb"), name);
-    }
+    expectNoWorseInTheField(
+        "shadow-width",
+        {"room-0", "room-1mm", "room-bulb", "lowsun-e1", "lowsun-e5", "terminator-terminator", "cube-large",
+         "lamp-shade", "city-triangle", "pillar-base", "pillar-yaw20", "mirror-mirror", "desk-ww",
+         "ceiling-h27", "fixture-fixture", "pcss-wall-2.5", "window-open", "city-2"});
 }
 
 }  // namespace

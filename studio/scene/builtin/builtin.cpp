@@ -63,6 +63,10 @@ std::span<const BuiltinInfo> builtinScenes() {
     return infos;
 }
 
+bool isBuiltin(std::string_view name) {
+    return std::ranges::find(infos, name, &BuiltinInfo::name) != infos.end();
+}
+
 Scene makeBuiltin(std::string_view name) {
     const auto found = std::ranges::find(entries, name, [](const Entry& entry) { return entry.info.name; });
     if (found != entries.end()) return found->make();

@@ -18,6 +18,9 @@ struct BuiltinInfo {
 /// All of them, in the order in which they are listed.
 std::span<const BuiltinInfo> builtinScenes();
 
+/// Whether there is a built-in scene of this name.
+bool isBuiltin(std::string_view name);
+
 /// The index of a built-in scene's ground or room among its nodes.
 inline constexpr int groundNode = 0;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/hosting/depth_step.h"
+#include "src/hosting/stored_depth.h"
 
 #include <cmath>
 
@@ -11,6 +11,15 @@ double fixedDepthStep(GLuint texture) {
     glGetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH_SIZE, &bits);
     if (bits > bitsReadWhole) bits = bitsReadWhole - 1;
     return type == GL_UNSIGNED_NORMALIZED ? std::exp2(-bits) : 0;
+}
+
+glm::dmat4 clipFromStored(const DepthConvention& depth) {
+    glm::dmat4 result(1);
+    if (depth.range == DepthConvention::Range::minusOneToOne) {
+        result[2][2] = 2;
+        result[3][2] = -1;
+    }
+    return result;
 }
 
 }  // namespace penumbra
