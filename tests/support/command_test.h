@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/own_cache.h"
+
 namespace penumbra::studio {
 
 namespace fs = std::filesystem;
@@ -33,8 +35,7 @@ class CommandTest : public ::testing::Test {
   protected:
     void SetUp() override {
         fs::create_directories(folder);
-        // A cache of its own, so that no test depends on what others have left.
-        setenv("XDG_CACHE_HOME", (folder / "cache").c_str(), 1);
+        setOwnCache(folder / "cache");
     }
     void TearDown() override {
         fs::permissions(folder, fs::perms::owner_all);

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "studio/image/atomic_file.h"
+#include "tests/support/own_cache.h"
 
 namespace penumbra::studio::viewer {
 namespace {
@@ -38,7 +39,7 @@ Display& ViewerTest::display() {
 
 void ViewerTest::SetUp() {
     display();
-    setenv("XDG_CACHE_HOME", at("cache").c_str(), 1);
+    setOwnCache(at("cache"));
     setenv("XDG_CONFIG_HOME", at("config").c_str(), 1);
 }
 
