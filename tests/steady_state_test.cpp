@@ -118,5 +118,20 @@ TEST_P(SteadyState, AllocatesCompilesAndReadsNothing) {
     EXPECT_EQ(test::AllocationCount::allocations(), 0) << "in four frames";
 }
 
+TEST_P(SteadyState, ASecondOfItsKindCompilesNothing) {
+    const ShadowInputs inputs = drawScene({64, 48});
+    VisibilityBuffer out(device(), inputs.view.width_px, inputs.view.height_px);
+    const auto first = workbench().makeTechnique(GetParam());
+    first->render(inputs, out);
+
+    for (const Watched& function : watched()) function.install();
+    const auto second = workbench().makeTechnique(GetParam());
+    second->render(inputs, out);
+    for (const Watched& function : watched()) function.remove();
+
+    EXPECT_EQ(Counted<&epoxy_glCompileShader>::calls, 0);
+    EXPECT_EQ(Counted<&epoxy_glLinkProgram>::calls, 0);
+}
+
 }  // namespace
 }  // namespace penumbra::studio
