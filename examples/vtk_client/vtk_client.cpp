@@ -6,6 +6,7 @@
 #include <penumbra/penumbra.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
+#include <vtkCellArray.h>
 #include <vtkCommand.h>
 #include <vtkConeSource.h>
 #include <vtkCubeSource.h>
@@ -31,6 +32,7 @@
 #include <vtkWindowToImageFilter.h>
 
 #include <array>
+#include <deque>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -38,6 +40,10 @@
 
 namespace {
 
+const double lampPlace[3] = {1.2, 4.0, 1.6}, lampTarget[3] = {0, 0, 0};
+
+//! [meshes]
+/// VTK's matrices are for column vectors, row after row.
 penumbra::Mat4 toPenumbra(vtkMatrix4x4* matrix) {
     return penumbra::Mat4::fromRows(matrix->GetData());
 }
@@ -45,85 +51,68 @@ penumbra::Mat4 toPenumbra(vtkMatrix4x4* matrix) {
 penumbra::Mesh toPenumbra(penumbra::Device& device, vtkPolyData* data) {
     vtkNew<vtkTriangleFilter> triangles;
     triangles->SetInputData(data);
-    triangles->PassLinesOff();
-    triangles->PassVertsOff();
     triangles->Update();
-    vtkPolyData* const output = triangles->GetOutput();
+    vtkPolyData& drawn = *triangles->GetOutput();
     std::vector<penumbra::Vec3> positions;
-    std::vector<std::uint32_t> indices;
-    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i) {
-        const double* const p = output->GetPoint(i);
+    for (vtkIdType i = 0; i < drawn.GetNumberOfPoints(); ++i) {
+        const double* const p = drawn.GetPoint(i);
         positions.push_back({float(p[0]), float(p[1]), float(p[2])});
     }
-    vtkNew<vtkIdList> cell;
-    for (vtkIdType i = 0; i < output->GetNumberOfCells(); ++i) {
-        output->GetCellPoints(i, cell);
-        for (vtkIdType corner = 0; corner < 3; ++corner)
-            indices.push_back(std::uint32_t(cell->GetId(corner)));
-    }
+    vtkDataArray& corners = *drawn.GetPolys()->GetConnectivityArray();
+    std::vector<std::uint32_t> indices;
+    for (vtkIdType i = 0; i < corners.GetNumberOfTuples(); ++i)
+        indices.push_back(std::uint32_t(corners.GetTuple1(i)));
     return penumbra::Mesh(device, {.positions = positions, .indices = indices});
 }
+//! [meshes]
 
 /// A square lamp that hangs over the scene and looks down at it.
-struct Lamp {
-    double posWorld[3] = {1.2, 4.0, 1.6};
-    double targetWorld[3] = {0, 0, 0};
-    float width_m = 0.9f;
+penumbra::AreaLight lamp() {
+    vtkNew<vtkCamera> lookingAlongIt;  // -Z, as lights do
+    lookingAlongIt->SetPosition(lampPlace);
+    lookingAlongIt->SetFocalPoint(lampTarget);
+    lookingAlongIt->SetViewUp(0, 0, 1);
+    vtkNew<vtkMatrix4x4> worldFromLight;
+    vtkMatrix4x4::Invert(lookingAlongIt->GetModelViewTransformMatrix(), worldFromLight);
+    return {.worldFromLight = toPenumbra(worldFromLight), .width_m = 0.9f, .height_m = 0.9f};
+}
 
-    penumbra::AreaLight areaLight() const {
-        vtkNew<vtkCamera> lookingAlongIt;  // -Z, as lights do
-        lookingAlongIt->SetPosition(posWorld);
-        lookingAlongIt->SetFocalPoint(targetWorld);
-        lookingAlongIt->SetViewUp(0, 0, 1);
-        vtkNew<vtkMatrix4x4> worldFromLight;
-        vtkMatrix4x4::Invert(lookingAlongIt->GetModelViewTransformMatrix(), worldFromLight);
-        penumbra::AreaLight light;
-        light.width_m = light.height_m = width_m;
-        light.worldFromLight = toPenumbra(worldFromLight);
-        return light;
+/// What Penumbra has on the window's context.
+struct Drawing {
+    Drawing(const std::string& name, vtkActorCollection& actors)
+        : technique(penumbra::makeTechnique(device, name)) {
+        actors.InitTraversal();
+        while (vtkActor* const actor = actors.GetNextActor()) {
+            vtkPolyData* const data = vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput());
+            casters.push_back({.mesh = &meshes.emplace_back(toPenumbra(device, data)),
+                               .worldFromMesh = toPenumbra(actor->GetMatrix())});
+        }
     }
+    penumbra::Device device;
+    std::unique_ptr<penumbra::Technique> technique;
+    penumbra::HostFramebuffer framebuffer{device};
+    penumbra::VisibilityBuffer visibility{device, 1, 1};
+    std::deque<penumbra::Mesh> meshes;
+    std::vector<penumbra::Caster> casters;
 };
 
 /// The lamp's shadows over whatever the renderer has drawn.
 class ShadowPass final : public vtkCommand {
   public:
-    ShadowPass(std::string technique, const Lamp& lamp) : name_(std::move(technique)), lamp_(lamp) {}
+    explicit ShadowPass(std::string technique) : name_(std::move(technique)) {}
 
     void Execute(vtkObject* caller, unsigned long, void*) override {
         auto* const renderer = static_cast<vtkRenderer*>(caller);
         auto* const window = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow());
-        if (!drawing_) drawing_ = std::make_unique<Drawing>(name_, renderer);
+        if (!drawing_) drawing_ = std::make_unique<Drawing>(name_, *renderer->GetActors());
         const penumbra::View view = viewOf(renderer, window);
         drawing_->visibility.resize(view.width_px, view.height_px);
-        drawing_->technique->render({view, lamp_.areaLight(), drawing_->casters}, drawing_->visibility);
+        drawing_->technique->render({view, lamp(), drawing_->casters}, drawing_->visibility);
         drawing_->framebuffer.multiply(window->GetRenderFramebuffer()->GetFBOIndex(), view,
                                        drawing_->visibility, 0.16f);
     }
 
-    /// While the window's context still lives.
-    void finish() { drawing_.reset(); }
-
   private:
-    struct Drawing {
-        Drawing(const std::string& name, vtkRenderer* renderer)
-            : technique(penumbra::makeTechnique(device, name)) {
-            vtkActorCollection* const actors = renderer->GetActors();
-            actors->InitTraversal();
-            while (vtkActor* const actor = actors->GetNextActor()) {
-                meshes.push_back(std::make_unique<penumbra::Mesh>(
-                    toPenumbra(device, vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput()))));
-                casters.push_back(
-                    {.mesh = meshes.back().get(), .worldFromMesh = toPenumbra(actor->GetMatrix())});
-            }
-        }
-        penumbra::Device device;
-        std::unique_ptr<penumbra::Technique> technique;
-        penumbra::HostFramebuffer framebuffer{device};
-        penumbra::VisibilityBuffer visibility{device, 1, 1};
-        std::vector<std::unique_ptr<penumbra::Mesh>> meshes;
-        std::vector<penumbra::Caster> casters;
-    };
-
     //! [view]
     static penumbra::View viewOf(vtkRenderer* renderer, vtkOpenGLRenderWindow* window) {
         vtkCamera* const camera = renderer->GetActiveCamera();
@@ -142,7 +131,6 @@ class ShadowPass final : public vtkCommand {
     //! [view]
 
     std::string name_;
-    Lamp lamp_;
     std::unique_ptr<Drawing> drawing_;
 };
 
@@ -209,13 +197,12 @@ int main(int argc, char** argv) try {
     vtkNew<vtkRenderer> renderer;
     buildScene(renderer);
     renderer->SetBackground(0.55, 0.62, 0.7);
-    const Lamp lamp;
     vtkNew<vtkLight> light;
     light->SetLightTypeToSceneLight();
     light->SetPositional(true);
     light->SetConeAngle(90);
-    light->SetPosition(lamp.posWorld[0], lamp.posWorld[1], lamp.posWorld[2]);
-    light->SetFocalPoint(lamp.targetWorld[0], lamp.targetWorld[1], lamp.targetWorld[2]);
+    light->SetPosition(lampPlace);
+    light->SetFocalPoint(lampTarget);
     renderer->AddLight(light);
     renderer->GetActiveCamera()->SetPosition(3.2, 3.4, 5.2);
     renderer->GetActiveCamera()->SetFocalPoint(0, 0.4, 0);
@@ -230,7 +217,7 @@ int main(int argc, char** argv) try {
     vtkNew<vtkRenderWindowInteractor> interactor;
     interactor->SetRenderWindow(window);
     //! [observer]
-    vtkSmartPointer<ShadowPass> pass = vtkSmartPointer<ShadowPass>::Take(new ShadowPass(technique, lamp));
+    vtkSmartPointer<ShadowPass> pass = vtkSmartPointer<ShadowPass>::Take(new ShadowPass(technique));
     if (shadows) renderer->AddObserver(vtkCommand::EndEvent, pass);
     //! [observer]
     // Twice, so that what the first frame leaves behind would show in the second.
@@ -248,8 +235,6 @@ int main(int argc, char** argv) try {
         writer->SetFileName(screenshot.c_str());
         writer->Write();
     }
-    window->MakeCurrent();
-    pass->finish();
     return 0;
 } catch (const penumbra::Error& error) {
     std::cerr << error.what() << "\n";
