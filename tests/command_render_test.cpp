@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // `render` as a script meets it: pictures, lights, cameras, what `auto` chose.
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "studio/image/image_io.h"
@@ -197,6 +199,61 @@ TEST_F(CommandTest, SceneWithoutTrianglesIsAPicture) {
     const Outcome outcome = run("render " + at("empty.gltf") + " -t hard --size 32x32 -o " + at("a.png"));
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_TRUE(fs::exists(at("a.png")));
+}
+
+/// A ball of eight triangles, shaded smoothly: its normals are its corners.
+std::string coarseBall() {
+    return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 0}, "indices": 1}]}],
+        "buffers": [{"uri": "ball.bin", "byteLength": 96}],
+        "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 72},
+                        {"buffer": 0, "byteOffset": 72, "byteLength": 24}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3",
+                       "min": [-1, -1, -1], "max": [1, 1, 1]},
+                      {"bufferView": 1, "componentType": 5121, "count": 24, "type": "SCALAR"}]})";
+}
+std::string cornersOfCoarseBall() {
+    constexpr std::array<float, 18> corners = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
+    constexpr std::array<std::uint8_t, 24> triangles = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4,
+                                                        2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+    return std::string(reinterpret_cast<const char*>(corners.data()), sizeof corners) +
+           std::string(reinterpret_cast<const char*>(triangles.data()), sizeof triangles);
+}
+
+TEST_F(CommandTest, TheTerminatorIsSmoothInPicturesOfFiles) {
+    write("ball.gltf", coarseBall());
+    write("ball.bin", cornersOfCoarseBall());
+    write("ball.lights.json", R"({"version": 1, "lights": [
+        {"name": "sun", "type": "DistantLight", "angle": 0.5, "intensity": 50000, "altitude": 20, "azimuth": 80}]})");
+    int count = 0;
+    const auto output = [&] { return at(std::to_string(++count) + ".out"); };
+    const auto picture = [&](const std::string& scene, const std::string& flags) {
+        const std::string file = output() + ".png";
+        const Outcome outcome = run("render " + scene + " -t hard --size 48x32 -o " + file + flags);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return readPng(file).image.values;
+    };
+    const auto visibility = [&](const std::string& flags) {
+        const std::string file = output() + ".exr";
+        const Outcome outcome =
+            run("render " + at("ball.gltf") + " -t hard --size 48x32 --visibility " + file + flags);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return readExr(file).channels.at(0).values;
+    };
+    const std::string smooth = " --terminator smooth", faceted = " --terminator faceted";
+    EXPECT_NE(picture(at("ball.gltf"), smooth), picture(at("ball.gltf"), faceted));
+    EXPECT_EQ(picture(at("ball.gltf"), ""), picture(at("ball.gltf"), smooth));
+    EXPECT_EQ(picture("torus", ""), picture("torus", faceted)) << "built-in scenes are measured";
+    EXPECT_NE(visibility(smooth), visibility(faceted));
+    EXPECT_EQ(visibility(""), visibility(faceted));
+}
+
+TEST_F(CommandTest, AnotherTerminatorIsRefused) {
+    const Outcome outcome = run("render torus --terminator round --size 8x8 -o " + at("a.png"));
+    EXPECT_EQ(outcome.exitCode, 2);
+    for (const char* said : {"--terminator", "smooth", "faceted", "round"})
+        EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+    EXPECT_EQ(files(), std::vector<std::string>{});
 }
 
 TEST_F(CommandTest, LightsFileReplacesTheScenesLights) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "penumbra/framebuffer.h"
+#include "src/gl/texture.h"
 #include "studio/frame/conversions.h"
 #include "tests/support/host_test.h"
 
@@ -175,6 +176,31 @@ TEST_F(HostsFramebuffer, IsMultipliedByTheVisibility) {
     EXPECT_EQ(wrong, 0);
     EXPECT_EQ(errorOf([&] { HostFramebuffer(device()).multiply(target.name(), view, out, 2); }).first,
               Error::Kind::badArgument);
+}
+
+TEST_F(HostsFramebuffer, IsMultipliedInTheColoursOfATexturedLight) {
+    constexpr int size_px = 8;
+    constexpr float leastLit = 0.2f;
+    const std::array<float, 4> seen = {1, 0.5f, 0, 0}, before = {0.8f, 0.8f, 0.8f, 0.6f};
+    const gl::Texture visibility({.width_px = size_px,
+                                  .height_px = size_px,
+                                  .format = gl::Format::rgba16f,
+                                  .label = "host's visibility"});
+    glClearTexImage(visibility.name(), 0, GL_RGBA, GL_FLOAT, seen.data());
+    const VisibilityBuffer out(
+        device(), VisibilityBuffer::HostTexture{visibility.name(), 0, 0, size_px, size_px}, true);
+    const Target target(GL_DEPTH_COMPONENT24, false, 0, size_px, size_px);
+    glClearNamedFramebufferfv(target.name(), GL_COLOR, 0, before.data());
+    View view;
+    view.width_px = view.height_px = size_px;
+    HostFramebuffer(device()).multiply(target.name(), view, out, leastLit);
+    std::array<std::uint8_t, 4> pixel{};
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, target.name());
+    glReadPixels(3, 5, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
+    for (std::size_t channel = 0; channel < 4; ++channel) {
+        const float factor = channel == 3 ? 1 : leastLit + (1 - leastLit) * seen[channel];
+        EXPECT_NEAR(pixel[channel], 255 * before[channel] * factor, 1.01) << "channel " << channel;
+    }
 }
 
 }  // namespace

@@ -102,8 +102,12 @@ TEST_F(Installed, ShowsItsInterfaceAndNothingElse) {
     EXPECT_EQ(std::system((symbols + " | grep -q 'penumbra::makeTechnique'").c_str()), 0);
 }
 
+bool hasProgram(const std::string& name) {
+    return std::system(("which " + name + " >/dev/null 2>&1").c_str()) == 0;
+}
+
 TEST_F(Installed, ServesAHostWithAWindow) {
-    if (std::system("which xvfb-run >/dev/null 2>&1") != 0) GTEST_SKIP() << "xvfb-run is missing";
+    if (!hasProgram("xvfb-run")) GTEST_SKIP() << "xvfb-run is missing";
     ASSERT_TRUE(buildProject(source("examples/glfw_host"), "glfw"));
     const auto picture = [&](const std::string& name, const std::string& flags) {
         EXPECT_TRUE(run("xvfb-run -a " + at("glfw/glfw_host") + " --screenshot " + at(name) + " " + flags));
@@ -168,8 +172,10 @@ struct Host {
     const char* package;  ///< of CMake's; where it is missing there is nothing to test
     const char* debian;
     Umbra umbra;
-    const char* options = "";    ///< of CMake's, for the example
-    const char* arguments = "";  ///< of the example's
+    const char* options = "";      ///< of CMake's, for the example
+    const char* arguments = "";    ///< of the example's
+    const char* environment = "";  ///< of the example's
+    const char* program = "sh";    ///< that building it needs, of the same Debian packages
 };
 class Hosts : public Installed, public ::testing::WithParamInterface<Host> {};
 // What is least lit follows from each example's scene and its `leastLit`, in the colours of the picture.
@@ -194,29 +200,68 @@ const std::vector<Host> hosts = {
      "OpenSceneGraph 3.6 COMPONENTS osgViewer",
      "libopenscenegraph-dev",
      {0.27f, 0.3f, 0.005}},
+    {"osg_multisampled",
+     "osg_host",
+     "OpenSceneGraph 3.6 COMPONENTS osgViewer",
+     "libopenscenegraph-dev",
+     {0.27f, 0.3f, 0.005},
+     "",
+     "",
+     "OSG_MULTI_SAMPLES=4"},
     {"coin", "coin_host", "Coin 4", "libcoin-dev", {0.27f, 0.3f, 0.01}},
     {"occt",
      "occt_host",
      "OpenCASCADE",
      "libocct-visualization-dev, libocct-data-exchange-dev",
      {0.32f, 0.35f, 0.01}},
-    {"ogre", "ogre_host", "OGRE 1.12", "libogre-1.12-dev", {0.27f, 0.3f, 0.01}}};
+    {"ogre", "ogre_host", "OGRE 1.12", "libogre-1.12-dev", {0.27f, 0.3f, 0.01}},
+    {"filament",
+     "filament_host",
+     "filament 1.9",
+     "libfilament-dev, libfilament-tools",
+     {0.42f, 0.45f, 0.005},
+     "",
+     "",
+     "",
+     "matc"}};
 INSTANTIATE_TEST_SUITE_P(Examples, Hosts, ::testing::ValuesIn(hosts),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST_P(Hosts, AreServed) {
     const Host& host = GetParam();
     const std::string place = *host.options == '\0' ? host.example : host.name;
-    if (std::system("which xvfb-run >/dev/null 2>&1") != 0) GTEST_SKIP() << "xvfb-run is missing";
-    if (!hasPackage(host.package)) GTEST_SKIP() << host.debian << " is missing";
+    if (!hasProgram("xvfb-run")) GTEST_SKIP() << "xvfb-run is missing";
+    if (!hasPackage(host.package) || !hasProgram(host.program)) GTEST_SKIP() << host.debian << " is missing";
     ASSERT_TRUE(buildProject(source(std::string("examples/") + host.example), place, host.options));
     const auto picture = [&](const std::string& file, const std::string& flags) {
-        EXPECT_TRUE(run("xvfb-run -a -s '-screen 0 1280x1024x24' " + at(place + "/" + host.example) +
-                        " --screenshot " + at(file) + " " + host.arguments + " " + flags));
+        EXPECT_TRUE(run(std::string(host.environment) + " xvfb-run -a -s '-screen 0 1280x1024x24' " +
+                        at(place + "/" + host.example) + " --screenshot " + at(file) + " " + host.arguments +
+                        " " + flags));
         return readPng(at(file)).image;
     };
     expectShadows(picture("plain.png", "--no-shadows"), picture("shadowed.png", "--technique exact"),
                   host.umbra);
+}
+
+/// At the Earth's radius from the world's origin, where floats come in steps of half a metre.
+TEST_F(Installed, AHostOnEarthLooksAsAtTheOrigin) {
+    if (!hasProgram("xvfb-run")) GTEST_SKIP() << "xvfb-run is missing";
+    if (!hasPackage("OpenSceneGraph 3.6 COMPONENTS osgViewer"))
+        GTEST_SKIP() << "libopenscenegraph-dev is missing";
+    ASSERT_TRUE(buildProject(source("examples/osg_host"), "osg_host"));
+    const auto picture = [&](const std::string& name, const std::string& flags) {
+        EXPECT_TRUE(run("xvfb-run -a -s '-screen 0 1280x1024x24' " + at("osg_host/osg_host") +
+                        " --screenshot " + at(name) + flags));
+        return readPng(at(name)).image.values;
+    };
+    const std::vector<float> atOrigin = picture("at-origin.png", ""),
+                             onEarth = picture("on-earth.png", " --on-earth");
+    ASSERT_EQ(onEarth.size(), atOrigin.size());
+    double difference = 0;
+    for (std::size_t i = 0; i < atOrigin.size(); ++i)
+        difference += std::abs(onEarth[i] - atOrigin[i]) / double(atOrigin.size());
+    RecordProperty("difference", std::to_string(difference));
+    EXPECT_LT(difference, 0.002);
 }
 
 }  // namespace

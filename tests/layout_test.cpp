@@ -262,4 +262,37 @@ TEST(Manual, CodeIsThatOfTheExamples) {
     EXPECT_EQ(blocks, 12);
 }
 
+/// Lines of code between an example's marks, `//! [name]` at both ends, comments apart.
+int linesThatKnowPenumbra(const fs::path& example) {
+    int count = 0;
+    bool isMarked = false;
+    std::ifstream text(example);
+    for (std::string line; std::getline(text, line);) {
+        line.erase(0, std::min(line.find_first_not_of(' '), line.size()));
+        if (line.starts_with("//! [")) isMarked = !isMarked;
+        const bool isCode = !line.empty() && !line.starts_with("//");
+        if (isMarked && isCode) ++count;
+        const bool mayKnow = line.starts_with("} catch") || line.find("penumbra::Vec3") != std::string::npos;
+        EXPECT_TRUE(isMarked || !isCode || mayKnow || line.find("penumbra::") == std::string::npos)
+            << example << " has outside of its marks: " << line;
+    }
+    return count;
+}
+
+TEST(Layout, ExamplesOfHostsAreAsShortAsTheManualSays) {
+    static const std::regex row("^\\|.*\\| (\\d+) \\| `(\\w+_(?:host|client))` \\|$");
+    int examples = 0;
+    std::ifstream text(root / "docs/manual/hosts.md");
+    std::smatch match;
+    for (std::string line; std::getline(text, line);) {
+        if (!std::regex_match(line, match, row)) continue;
+        const std::string name = match[2];
+        const int lines = linesThatKnowPenumbra(root / "examples" / name / (name + ".cpp"));
+        EXPECT_EQ(std::to_string(lines), match[1]) << name;
+        EXPECT_LE(lines, 80) << name;
+        ++examples;
+    }
+    EXPECT_EQ(examples, 7) << "the table of docs/manual/hosts.md cannot be read any more";
+}
+
 }  // namespace

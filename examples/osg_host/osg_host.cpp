@@ -2,7 +2,9 @@
 // OpenSceneGraph's own viewer and lighting, with soft shadows of a square lamp over what it has drawn. Not a
 // line of OpenGL is needed: the depths come out of the window, and the shadows go back into it.
 //
-//     osg_host [--technique NAME] [--screenshot picture.png] [--no-shadows]
+//     osg_host [--technique NAME] [--screenshot picture.png] [--no-shadows] [--on-earth]
+//
+// --on-earth: the same scene at the Earth's radius from the world's origin, as globes in metres have them.
 #include <penumbra/penumbra.h>
 
 #include <iostream>
@@ -26,8 +28,9 @@ struct Triangles {
 /// Finds what is drawn: a mesh for each geometry, and where it stands.
 class CasterFinder final : public osg::NodeVisitor {
   public:
-    CasterFinder(penumbra::Device& device, std::map<osg::Geometry*, penumbra::Mesh>& meshes)
-        : NodeVisitor(TRAVERSE_ACTIVE_CHILDREN), device_(device), meshes_(meshes) {}
+    CasterFinder(penumbra::Device& device, std::map<osg::Geometry*, penumbra::Mesh>& meshes,
+                 const penumbra::WorldOrigin& origin)
+        : NodeVisitor(TRAVERSE_ACTIVE_CHILDREN), device_(device), meshes_(meshes), origin_(origin) {}
     std::vector<penumbra::Caster> casters;
 
     void apply(osg::Geometry& geometry) override {
@@ -44,46 +47,46 @@ class CasterFinder final : public osg::NodeVisitor {
         }
         casters.push_back(
             {.mesh = &meshes_.at(&geometry),
-             .worldFromMesh = penumbra::Mat4::fromColumns(osg::computeLocalToWorld(getNodePath()).ptr())});
+             .worldFromMesh = origin_.worldFrom(osg::computeLocalToWorld(getNodePath()).ptr())});
     }
 
   private:
     penumbra::Device& device_;
     std::map<osg::Geometry*, penumbra::Mesh>& meshes_;
+    penumbra::WorldOrigin origin_;
 };
 //! [meshes]
-
-penumbra::AreaLight lamp() {
-    penumbra::AreaLight light;
-    light.width_m = light.height_m = 1.2f;
-    const osg::Matrixd viewFromLight =
-        osg::Matrixd::lookAt(osg::Vec3(2, -1.5, 5), osg::Vec3(0, 0, 0), osg::Vec3(0, 1, 0));
-    light.worldFromLight = penumbra::Mat4::fromColumns(osg::Matrixd::inverse(viewFromLight).ptr());
-    return light;
-}
 
 //! [callback]
 /// After each frame.
 class Shadows final : public osg::Camera::DrawCallback {
   public:
-    explicit Shadows(std::string technique) : name_(std::move(technique)) {}
+    Shadows(std::string technique, const osg::Vec3d& lampTarget) : name_(std::move(technique)) {
+        const osg::Vec3d lampPlace = lampTarget + osg::Vec3d(2, -1.5, 5);
+        worldFromLight_.invert(osg::Matrixd::lookAt(lampPlace, lampTarget, osg::Vec3d(0, 1, 0)));
+    }
 
     void operator()(osg::RenderInfo& info) const override {
         if (!drawing_) drawing_ = std::make_unique<Drawing>(name_);
         Drawing& drawing = *drawing_;
         osg::Camera& camera = *info.getCurrentCamera();
         const osg::Viewport& viewport = *camera.getViewport();
+        // Worlds may be so large that floats cannot hold them: everything is told as seen from the eye.
+        const osg::Vec3d eye = osg::Matrixd::inverse(camera.getViewMatrix()).getTrans();
+        const penumbra::WorldOrigin origin{eye.x(), eye.y(), eye.z()};
         penumbra::View view;
         view.width_px = int(viewport.width());
         view.height_px = int(viewport.height());
-        view.viewFromWorld = penumbra::Mat4::fromColumns(camera.getViewMatrix().ptr());
+        view.viewFromWorld = origin.fromWorld(camera.getViewMatrix().ptr());
         view.clipFromView = penumbra::Mat4::fromColumns(camera.getProjectionMatrix().ptr());
         view.depth = {.range = penumbra::DepthConvention::Range::minusOneToOne, .reversed = false};
         drawing.framebuffer.copyDepth(0, view);
-        CasterFinder finder(drawing.device, drawing.meshes);
+        CasterFinder finder(drawing.device, drawing.meshes, origin);
         camera.accept(finder);
         drawing.visibility.resize(view.width_px, view.height_px);
-        drawing.technique->render({view, lamp(), finder.casters}, drawing.visibility);
+        const penumbra::AreaLight lamp = {
+            .worldFromLight = origin.worldFrom(worldFromLight_.ptr()), .width_m = 1.2f, .height_m = 1.2f};
+        drawing.technique->render({view, lamp, finder.casters}, drawing.visibility);
         drawing.framebuffer.multiply(0, view, drawing.visibility, 0.25f);
     }
 
@@ -97,6 +100,7 @@ class Shadows final : public osg::Camera::DrawCallback {
         std::map<osg::Geometry*, penumbra::Mesh> meshes;
     };
     std::string name_;
+    osg::Matrixd worldFromLight_;
     mutable std::unique_ptr<Drawing> drawing_;
 };
 //! [callback]
@@ -119,8 +123,8 @@ class Screenshot final : public osg::Camera::DrawCallback {
     std::string path_;
 };
 
-osg::ref_ptr<osg::Group> buildScene() {
-    osg::ref_ptr<osg::Group> scene = new osg::Group;
+osg::ref_ptr<osg::Group> buildScene(const osg::Vec3d& middle) {
+    osg::ref_ptr<osg::MatrixTransform> scene = new osg::MatrixTransform(osg::Matrixd::translate(middle));
     const auto add = [&](osg::ref_ptr<osg::Shape> shape, const osg::Vec4& color) {
         osg::ref_ptr<osg::ShapeDrawable> drawable = new osg::ShapeDrawable(shape);
         drawable->setColor(color);
@@ -143,20 +147,25 @@ osg::ref_ptr<osg::Group> buildScene() {
 int main(int argc, char** argv) try {
     std::string technique = "exact", screenshot;
     bool shadows = true;
+    osg::Vec3d middle(0, 0, 0);
     for (int i = 1; i < argc; ++i) {
         const std::string flag = argv[i];
         if (flag == "--no-shadows") shadows = false;
+        if (flag == "--on-earth") middle = {5.1e6, -3.2e6, 2.1e6};
         if (flag == "--technique" && i + 1 < argc) technique = argv[++i];
         if (flag == "--screenshot" && i + 1 < argc) screenshot = argv[++i];
     }
     osgViewer::Viewer viewer;
     viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
     viewer.setUpViewInWindow(0, 0, 640, 400);
-    viewer.setSceneData(buildScene());
-    viewer.getCamera()->setViewMatrixAsLookAt(osg::Vec3(3, -6, 4.5), osg::Vec3(0, 0, 0.4), osg::Z_AXIS);
+    viewer.setSceneData(buildScene(middle));
+    viewer.getCamera()->setViewMatrixAsLookAt(middle + osg::Vec3d(3, -6, 4.5), middle + osg::Vec3d(0, 0, 0.4),
+                                              osg::Z_AXIS);
     viewer.getCamera()->setClearColor({0.1f, 0.1f, 0.12f, 1});
     osg::ref_ptr<osg::Camera::DrawCallback> callback;
-    if (shadows) callback = new Shadows(technique);
+    //! [set]
+    if (shadows) callback = new Shadows(technique, middle);
+    //! [set]
     if (!screenshot.empty()) callback = new Screenshot(callback, screenshot);
     viewer.getCamera()->setFinalDrawCallback(callback);
     viewer.realize();

@@ -90,7 +90,9 @@ class Widget final : public QOpenGLWidget {
     explicit Widget(std::optional<std::string> technique) : technique_(std::move(technique)) {}
     ~Widget() override {
         makeCurrent();
+        //! [destroy]
         shadows_.reset();
+        //! [destroy]
         vertexArray_.destroy();
         doneCurrent();
     }
@@ -126,7 +128,9 @@ class Widget final : public QOpenGLWidget {
         program_.enableAttributeArray(0);
         program_.setAttributeBuffer(0, GL_FLOAT, 0, 3);
         vertexArray_.release();
+        //! [initialize]
         if (technique_) shadows_ = std::make_unique<Shadows>(*technique_, boxes_);
+        //! [initialize]
     }
     void paintGL() override {
         QMatrix4x4 viewFromWorld, clipFromView;
@@ -145,10 +149,12 @@ class Widget final : public QOpenGLWidget {
             gl.glDrawElements(GL_TRIANGLES, GLsizei(triangles.size()), GL_UNSIGNED_INT, nullptr);
         }
         vertexArray_.release();
+        //! [paint]
         if (shadows_) {
             const QSize size_px = size() * devicePixelRatioF();
             shadows_->draw(defaultFramebufferObject(), size_px, viewFromWorld, clipFromView);
         }
+        //! [paint]
     }
 
     std::optional<std::string> technique_;
@@ -156,7 +162,9 @@ class Widget final : public QOpenGLWidget {
     QOpenGLShaderProgram program_;
     QOpenGLVertexArrayObject vertexArray_;
     QOpenGLBuffer positions_{QOpenGLBuffer::VertexBuffer}, indices_{QOpenGLBuffer::IndexBuffer};
+    //! [member]
     std::unique_ptr<Shadows> shadows_;
+    //! [member]
 };
 
 }  // namespace

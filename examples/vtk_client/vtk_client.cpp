@@ -66,6 +66,7 @@ penumbra::Mesh toPenumbra(penumbra::Device& device, vtkPolyData* data) {
 }
 //! [meshes]
 
+//! [shadows]
 /// A square lamp that hangs over the scene and looks down at it.
 penumbra::AreaLight lamp() {
     vtkNew<vtkCamera> lookingAlongIt;  // -Z, as lights do
@@ -113,7 +114,6 @@ class ShadowPass final : public vtkCommand {
     }
 
   private:
-    //! [view]
     static penumbra::View viewOf(vtkRenderer* renderer, vtkOpenGLRenderWindow* window) {
         vtkCamera* const camera = renderer->GetActiveCamera();
         penumbra::View view;
@@ -128,11 +128,11 @@ class ShadowPass final : public vtkCommand {
         view.depth = {.range = penumbra::DepthConvention::Range::minusOneToOne, .reversed = false};
         return view;
     }
-    //! [view]
 
     std::string name_;
     std::unique_ptr<Drawing> drawing_;
 };
+//! [shadows]
 
 template <typename Source>
 vtkActor* add(vtkRenderer* renderer, Source& source, const std::array<double, 3>& place,
