@@ -120,6 +120,15 @@ TEST_F(GlTest, ImpossibleTexturesAreRefused) {
               0u);
 }
 
+TEST_F(GlTest, TexelsOfRowsOfAnyLengthAreTight) {
+    Texture texture({.width_px = 3, .height_px = 2, .format = Format::r16f, .label = "odd"});
+    const std::array<std::uint16_t, 6> halves = {0x3c00, 0x4000, 0x4200, 0x4400, 0x4500, 0x4600};
+    texture.write(std::as_bytes(std::span(halves)));
+    std::array<std::uint16_t, 6> texels{};
+    texture.read(std::as_writable_bytes(std::span(texels)));
+    EXPECT_EQ(texels, halves);
+}
+
 TEST_F(GlTest, IncompleteFramebuffersAreRefused) {
     const Texture color(
         {.width_px = 8, .height_px = 8, .format = Format(GL_RGB9_E5), .label = "not drawable"});

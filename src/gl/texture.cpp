@@ -112,9 +112,26 @@ void Texture::copyTo(Texture& target) const {
                        spec_.height_px, std::max(1, spec_.layers));
 }
 
+namespace {
+
+/// Rows of texels stand on the CPU one right behind the other; OpenGL would begin each at a multiple of 4.
+class TightRows {
+  public:
+    explicit TightRows(GLenum alignment) : alignment_(alignment) { glPixelStorei(alignment, 1); }
+    TightRows(const TightRows&) = delete;
+    TightRows& operator=(const TightRows&) = delete;
+    ~TightRows() { glPixelStorei(alignment_, 4); }
+
+  private:
+    GLenum alignment_;
+};
+
+}  // namespace
+
 void Texture::write(std::span<const std::byte> texels, int layer) {
     record_.makeVisible(GL_TEXTURE_UPDATE_BARRIER_BIT);
     const Transfer transfer = transferOf(spec_.format);
+    const TightRows rows(GL_UNPACK_ALIGNMENT);
     if (spec_.layers > 0) {
         glTextureSubImage3D(name(), 0, 0, 0, layer, spec_.width_px, spec_.height_px, 1, transfer.format,
                             transfer.type, texels.data());
@@ -127,6 +144,7 @@ void Texture::write(std::span<const std::byte> texels, int layer) {
 void Texture::read(std::span<std::byte> texels, int layer) const {
     record_.makeVisible(GL_TEXTURE_UPDATE_BARRIER_BIT);
     const Transfer transfer = transferOf(spec_.format);
+    const TightRows rows(GL_PACK_ALIGNMENT);
     glGetTextureSubImage(name(), 0, 0, 0, layer, spec_.width_px, spec_.height_px, 1, transfer.format,
                          transfer.type, GLsizei(texels.size()), texels.data());
 }

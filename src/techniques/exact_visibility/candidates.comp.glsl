@@ -13,6 +13,11 @@ layout(local_size_x = 32) in;
 layout(std430) writeonly buffer Candidates { uint candidates[]; };  // light.tileCapacity a tile
 layout(std430) writeonly buffer TileLists { TileList tileLists[]; };
 layout(std430) buffer Busy { BusyTiles busy; uint busyTiles[]; };
+layout(std140) uniform Constants { ExactKeeping keeping; };
+layout(std430) readonly buffer TileRevisions { uint tileRevisions[]; };
+layout(std430) readonly buffer Weights { uint weightsChangedAt; };
+layout(std430) buffer MadeAt { uint madeAt[]; };                 // of the kept tiles, plus 1
+layout(std430) readonly buffer ChangedBoxes { vec4 changed[]; };  // low and high
 uniform writeonly image2D visibility;
 layout(r16f) uniform writeonly image2D errorBound;
 
@@ -219,6 +224,9 @@ void main() {
     ivec2 tiles = (view.size_px + 7) / 8;
     if (tile >= uint(tiles.x * tiles.y)) return;
     ivec2 tileOf = ivec2(int(tile) % tiles.x, int(tile) / tiles.x);
+    uint revision = max(tileRevisions[tile], weightsChangedAt) + 1u;
+    bool isSame = keeping.keeps && madeAt[tile] == revision;
+    if (isSame && keeping.changedBoxes == 0) return;
     Bounds bounds = boundsOf(tileOf);
 
     float pad = 1e-6 * (max(max(abs(bounds.low.x), abs(bounds.high.x)), max(abs(bounds.low.y), abs(bounds.high.y))) +
@@ -234,6 +242,13 @@ void main() {
     shaft.end = isDistant ? 3e37 : 1.0;
 
     Sides sides = sidesOf(bounds);
+
+    // Casters that are in nobody's way now, and were not before, change nothing.
+    for (int i = 0; i < keeping.changedBoxes && isSame && bounds.count > 0; ++i)
+        isSame = !mayBlockTile(shaft, sides, bounds, TreeNode(changed[2 * i].xyz, changed[2 * i + 1].xyz, 0u, 0u));
+    if (isSame) return;
+    // Where a horizon cuts a picture's light, its texels are looked up, and nobody tells when they change.
+    madeAt[tile] = keeping.keeps && !(bounds.isCut && light.emitter.isTextured) ? revision : 0u;
 
     // Plain nodes from the front of the tile's part of the lists, those that take a test a sample from its back.
     uint capacity = uint(light.tileCapacity);
@@ -289,12 +304,5 @@ void main() {
         atomicMax(busy.groupsX, min(place + 1u, EXACT_GROUPS_ACROSS));
         atomicMax(busy.groupsY, place / EXACT_GROUPS_ACROSS + 1u);
         busy.groupsZ = 1u;
-    }
-
-    if (plain + special > 0u) {
-        atomicAdd(triangleSum, plain + special);
-        atomicMax(largestTile, plain + special);
-        atomicAdd(tilesWithCandidates, 1u);
-        if (walk.node != EXACT_END) atomicAdd(fullTiles, 1u);
     }
 }

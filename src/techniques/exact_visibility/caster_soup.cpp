@@ -7,7 +7,6 @@
 #include <cstring>
 
 #include "src/device/glm_types.h"
-#include "src/techniques/exact_visibility/exact_io.h"
 
 namespace penumbra::exact_visibility {
 namespace {
@@ -64,6 +63,8 @@ void CasterSoup::Entry::take(const Caster& caster) {
     const auto newUvs = caster.mesh->uvs();
     uvs.assign(newUvs.begin(), newUvs.end());
     worldFromMesh = caster.worldFromMesh;
+    mesh = caster.mesh->id();
+    revision = caster.mesh->revision();
     if (!sameTriangles || shape.nodes.empty()) {
         std::vector<TreeBox> meshBoxes(indices.size() / 3);
         for (std::size_t i = 0; i < indices.size(); ++i) meshBoxes[i / 3].add(toGlm(positions[indices[i]]));
@@ -91,8 +92,24 @@ void CasterSoup::Entry::place(const glm::dvec3& origin) {
 }
 
 bool CasterSoup::Entry::isStale(const Caster& caster) const {
+    if (!sameMatrix(worldFromMesh, caster.worldFromMesh)) return true;
+    if (mesh == caster.mesh->id() && revision == caster.mesh->revision()) return false;
     return !sameBits(indices, caster.mesh->indices()) || !sameBits(positions, caster.mesh->positions()) ||
-           !sameBits(uvs, caster.mesh->uvs()) || !sameMatrix(worldFromMesh, caster.worldFromMesh);
+           !sameBits(uvs, caster.mesh->uvs());
+}
+
+/// Only a host can tell whether texels are as they were.
+bool CasterSoup::Entry::mayHaveOtherHoles(const Caster& caster) const {
+    const AlphaMask& now = caster.alphaMask;
+    if (now.texture == 0) return holes.texture != 0;
+    return now.revision == 0 || now.revision != holes.revision || now.texture != holes.texture ||
+           now.factor != holes.factor || now.cutoff != holes.cutoff;
+}
+
+void CasterSoup::noteChanged(const Entry& entry) {
+    if (entry.boxes.empty()) return;
+    changed_.emplace_back(entry.boxes.front().min, 0);
+    changed_.emplace_back(entry.boxes.front().max, 0);
 }
 
 void CasterSoup::update(std::span<const Caster> casters) {
@@ -102,6 +119,7 @@ void CasterSoup::update(std::span<const Caster> casters) {
 
     // What is the same as before stays; masks are named by their place in the list of masks.
     masks_.clear();
+    changed_.clear();
     std::size_t count = 0;
     for (const Caster& caster : casters) {
         if (!caster.casts || caster.mesh->indices().empty()) continue;
@@ -113,12 +131,18 @@ void CasterSoup::update(std::span<const Caster> casters) {
         if (count == entries_.size()) entries_.emplace_back();
         Entry& entry = entries_[count++];
         const bool stale = entry.isStale(caster);
+        const bool changes = stale || moved || entry.mayHaveOtherHoles(caster);
+        if (changes) noteChanged(entry);
         if (stale) entry.take(caster);
         if (stale || moved) entry.place(origin);
+        entry.holes = caster.alphaMask;
+        if (changes) noteChanged(entry);
         entry.isSent = entry.isSent && !stale && !moved && entry.mask == mask;
         entry.mask = mask;
     }
+    for (std::size_t i = count; i < entries_.size(); ++i) noteChanged(entries_[i]);
     entries_.resize(count);
+    if (!changed_.empty()) ++revision_;
     send();
 }
 

@@ -10,6 +10,7 @@
 #include "penumbra/technique.h"
 #include "src/gl/pass.h"
 #include "src/gl/texel_buffer.h"
+#include "src/techniques/exact_visibility/exact_io.h"
 #include "src/techniques/exact_visibility/triangle_tree.h"
 
 namespace penumbra::exact_visibility {
@@ -24,6 +25,18 @@ class CasterSoup {
     /// Takes the casters in. Throws Error::Kind::badArgument where they have more triangles than the device
     /// can address.
     void update(std::span<const Caster> casters);
+
+    /// Counts the updates after which something was not as before.
+    std::uint64_t revision() const { return revision_; }
+    /// Whether `changedBoxes` tells all that differs now from what was there at a revision.
+    bool tellsChangesSince(std::uint64_t revision) const {
+        return revision == revision_ ||
+               (revision + 1 == revision_ && changed_.size() <= std::size_t(2 * EXACT_MOST_CHANGED));
+    }
+    /// Around casters that have come, gone, moved, changed their form or may have other holes since the
+    /// revision before: where they were and where they are, each a low and a high corner (scene axes,
+    /// metres).
+    std::span<const glm::vec4> changedBoxes() const { return changed_; }
 
     /// World space moved, not turned, so that coordinates are small: how shaders see everything.
     const glm::dvec3& originWorld() const { return originWorld_; }
@@ -48,11 +61,13 @@ class CasterSoup {
   private:
     /// A caster, with copies of what it is made of to see whether it is still the same.
     struct Entry {
+        std::uint64_t mesh = 0, revision = 0;  ///< Mesh's; nothing else is looked at where they are the same
         std::vector<std::uint32_t> indices;
         std::vector<Vec3> positions;
         std::vector<Vec2> uvs;
         Mat4 worldFromMesh;
         int mask = -1;  ///< which of masks_, or none
+        AlphaMask holes;
 
         TreeShape shape;
         std::vector<TreeBox> boxes;      ///< one a node
@@ -61,16 +76,20 @@ class CasterSoup {
         std::size_t firstNode = 0, firstTriangle = 0, firstMasked = 0;
 
         bool isStale(const Caster& caster) const;
+        bool mayHaveOtherHoles(const Caster& caster) const;
         void take(const Caster& caster);
         void place(const glm::dvec3& origin);
     };
 
+    void noteChanged(const Entry& entry);
     void send();
     void send(Entry& entry);
     void sendTop();
 
     std::vector<Entry> entries_;
     std::vector<AlphaMask> masks_;
+    std::vector<glm::vec4> changed_;
+    std::uint64_t revision_ = 1;
     glm::dvec3 originWorld_{0};
     gl::TexelBuffer nodes_, triangles_, masked_;
     std::size_t nodeCount_ = 0;

@@ -12,6 +12,7 @@
 #include "penumbra/light_plane.h"
 #include "src/device/glm_types.h"
 #include "src/gl/pass.h"
+#include "src/techniques/common/input_key.h"
 #include "src/techniques/common/light_constants.h"
 
 namespace penumbra::exact_visibility {
@@ -19,7 +20,6 @@ namespace {
 
 constexpr const char* candidatesShader = "src/techniques/exact_visibility/candidates.comp.glsl";
 constexpr const char* resolveShader = "src/techniques/exact_visibility/resolve.comp.glsl";
-constexpr int tile_px = 8;
 
 // llvmpipe ends all loops of a shader, without a word, once an invocation has gone through 65,535 iterations;
 // the last triangle before a pause may take some hundred more than this. Elsewhere it is watchdogs that want
@@ -42,13 +42,11 @@ ExactVisibility::ExactVisibility(Device& device)
       device_(internalsOf(device)),
       candidates_(device_.shaders, {candidatesShader}),
       weigh_(device_.shaders, {"src/techniques/exact_visibility/weights.comp.glsl"}),
+      restore_(device_.shaders, {"src/techniques/common/restore.comp.glsl"}),
       light_("exact/light"),
       masks_("exact/masks"),
-      counters_(sizeof(Counters), "exact/counters"),
-      weights_(std::size_t(EXACT_MAX_LATTICES * EXACT_MAX_ROWS * EXACT_MAX_ROWS) * sizeof(glm::vec4),
-               "exact/weights") {
-    counters_.clear();
-}
+      changedBoxes_("exact/changed boxes"),
+      receivers_(device_.shaders) {}
 
 void ExactVisibility::describe(ParameterVisitor& visitor) {
     static constexpr std::array<std::string_view, 2> weights = {"area", "irradiance"};
@@ -115,7 +113,7 @@ ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs,
         .axisY = axes[1],
         .latticeCount = int(lattices.size()),
         .axisZ = axes[2],
-        .tilesAcross = (inputs.view.width_px + tile_px - 1) / tile_px,
+        .tilesAcross = (inputs.view.width_px + EXACT_TILE - 1) / EXACT_TILE,
         .boxMin = low,
         .tileCapacity = tileCapacity_,
         .boxMax = high,
@@ -176,15 +174,9 @@ int ExactVisibility::roundsFor(std::span<const LightLattice> lattices, std::size
 }
 
 void ExactVisibility::allocate(int width_px, int height_px, int rows, int rounds) {
-    errorBound_.fit({.width_px = width_px,
-                     .height_px = height_px,
-                     .format = gl::Format::r16f,
-                     .label = "exact/error bound"});
-    tileCount_ =
-        std::size_t((width_px + tile_px - 1) / tile_px) * std::size_t((height_px + tile_px - 1) / tile_px);
-    busy_.reserve(sizeof(BusyTiles) + tileCount_ * sizeof(std::uint32_t), "exact/busy tiles");
-    tiles_.reserve(tileCount_ * sizeof(TileList), "exact/tiles");
-    lists_.reserve(tileCount_ * std::size_t(tileCapacity_) * sizeof(std::uint32_t), "exact/candidates");
+    const std::size_t tiles = answer_.tileCount;
+    busy_.reserve(sizeof(BusyTiles) + tiles * sizeof(std::uint32_t), "exact/busy tiles");
+    lists_.reserve(tiles * std::size_t(tileCapacity_) * sizeof(std::uint32_t), "exact/candidates");
     states_.reserve(std::size_t(width_px) * std::size_t(height_px) * std::size_t(EXACT_STATE_WORDS + rows) *
                         sizeof(std::uint32_t),
                     "exact/states");
@@ -206,11 +198,28 @@ std::vector<unsigned> ExactVisibility::sendMasks() {
     return textures;
 }
 
+/// Whether tiles may keep their answers: the camera, the light and the options are those of the last frame,
+/// and casters that are not are known.
+bool ExactVisibility::canKeep(const AreaLight& light, bool isSameView) {
+    key_.clear();
+    appendLight(key_, light);
+    appendBytes(key_, soup_.originWorld());
+    appendBytes(key_, samples_);
+    appendBytes(key_, weight_);
+    return isSameView && key_ == answer_.key && soup_.tellsChangesSince(answer_.casterRevision);
+}
+
 void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     {
         const auto pass = timers_.pass("exact/upload");
         soup_.update(inputs.casters);
     }
+    const bool keeps = canKeep(inputs.light, receivers_.follow(inputs.view));
+    answer_.key.clear();  // until it is there
+    answer_.fit(out.width_px(), out.height_px(), out.colored() ? gl::Format::rgba16f : gl::Format::r32f);
+    const gl::TextureRef visibility = keeps ? answer_.visibility.ref() : imageOf(out);
+    const std::span<const glm::vec4> changed =
+        soup_.revision() == answer_.casterRevision ? std::span<const glm::vec4>() : soup_.changedBoxes();
     const std::vector<LightLattice>& lattices = latticesFor(inputs.light);
     std::size_t rows = 0;
     for (const LightLattice& lattice : lattices) rows = std::max(rows, lattice.validRows.size());
@@ -229,31 +238,42 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
     glm::dmat4 sceneFromWorld(1);
     sceneFromWorld[3] = glm::dvec4(-soup_.originWorld(), 1);
     view_.fill(inputs.view, sceneFromWorld);
-    counters_.clear();
     busy_.clear(0, sizeof(BusyTiles));
-    {
-        const auto pass = timers_.pass("exact/candidates");
-        constexpr std::size_t groupTiles = 32;
-        gl::Pass(candidates_)
-            .bind(view_)
-            .bind("LightBlock", light_)
-            .bind(soup_)
-            .bind("Candidates", lists_)
-            .bind("TileLists", tiles_)
-            .bind("Counters", counters_)
-            .bind("Busy", busy_)
-            .bind("visibility", imageOf(out))
-            .bind("errorBound", errorBound_)
-            .dispatch((tileCount_ + groupTiles - 1) / groupTiles);
+    ++serial_;
+    if (keeps) {
+        const auto pass = timers_.pass("exact/receivers");
+        receivers_.look(inputs.view, view_, serial_);
+        changedBoxes_.write(changed);
     }
     const gl::TextureRef radiance{.name = inputs.light.radianceTexture};
     if (inputs.light.radianceTexture != 0) {
         const auto pass = timers_.pass("exact/weights");
         gl::Pass(weigh_)
+            .constants(ExactLook{.serial = serial_})
             .bind("LightBlock", light_)
             .bind("radiance", radiance)
-            .bind("Weights", weights_)
+            .bind("Weights", answer_.weights)
             .dispatch(EXACT_MAX_ROWS / 8, EXACT_MAX_ROWS / 8, lattices.size());
+    }
+    {
+        const auto pass = timers_.pass("exact/candidates");
+        constexpr std::size_t groupTiles = 32;
+        gl::Pass(candidates_)
+            .constants(
+                ExactKeeping{.keeps = bool32(keeps), .changedBoxes = keeps ? int(changed.size() / 2) : 0})
+            .bind(view_)
+            .bind("LightBlock", light_)
+            .bind(soup_)
+            .bind("Candidates", lists_)
+            .bind("TileLists", answer_.tiles)
+            .bind("TileRevisions", receivers_.tileRevisions())
+            .bind("Weights", answer_.weights)
+            .bind("MadeAt", answer_.madeAt)
+            .bind("ChangedBoxes", changedBoxes_)
+            .bind("Busy", busy_)
+            .bind("visibility", visibility)
+            .bind("errorBound", answer_.errorBound)
+            .dispatch((answer_.tileCount + groupTiles - 1) / groupTiles);
     }
     const auto timed = timers_.pass("exact/resolve");
     rounds_.clear();
@@ -263,15 +283,14 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
         .bind("LightBlock", light_)
         .bind(soup_)
         .bind("Candidates", lists_)
-        .bind("TileLists", tiles_)
-        .bind("Counters", counters_)
+        .bind("TileLists", answer_.tiles)
         .bind("Busy", busy_)
-        .bind("Weights", weights_)
+        .bind("Weights", answer_.weights)
         .bind("radiance", radiance)
         .bind("States", states_)
         .bind("Rounds", rounds_)
-        .bind("visibility", imageOf(out))
-        .bind("errorBound", errorBound_);
+        .bind("visibility", visibility)
+        .bind("errorBound", answer_.errorBound);
     if (pass.has("Masks")) pass.bind("Masks", masks_);
     bindMaskGroup(pass, maskTextures, 0);
     ExactRound round{.number = 0, .work = roundWork_, .turnRounds = turnRounds, .groups = groups};
@@ -283,32 +302,40 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
         pass.constants(round).dispatchIndirect(rounds_,
                                                3 * sizeof(std::uint32_t) * std::size_t(round.number));
     }
+    if (keeps) {
+        gl::Pass(restore_)
+            .bind("kept", answer_.visibility)
+            .bind("visibility", imageOf(out))
+            .dispatchPixels(out.width_px(), out.height_px());
+    }
+    std::swap(answer_.key, key_);
+    answer_.casterRevision = soup_.revision();
 }
 
 void ExactVisibility::inspect(InspectionVisitor& visitor) const {
-    visitor.texture({.name = "error bound", .texture = errorBound_.name()});
+    visitor.texture({.name = "error bound", .texture = answer_.errorBound.name()});
 }
 
 Statistics ExactVisibility::statistics() const {
-    Counters counters;
-    counters_.read(std::as_writable_bytes(std::span(&counters, 1)));
+    const TileCounts tiles = answer_.countTiles();
+    const ErrorBounds bounds = answer_.readBounds();
+    BusyTiles busy{};
+    if (busy_.size_bytes() >= sizeof busy) busy_.read(std::as_writable_bytes(std::span(&busy, 1)));
     Statistics statistics;
     statistics.counts = {
         {"triangles", double(soup_.triangleCount())},
-        {"tiles with candidates", double(counters.tilesWithCandidates)},
-        {"candidates per tile", counters.tilesWithCandidates > 0
-                                    ? double(counters.triangleSum) / counters.tilesWithCandidates
-                                    : 0.0},
-        {"most candidates in a tile", double(counters.largestTile)},
-        {"tiles beyond their room", double(counters.fullTiles)},
-        {"penumbra pixels", double(counters.boundedPixels)},
-        {"mean error bound",
-         counters.boundedPixels > 0 ? counters.boundSum / 256.0 / counters.boundedPixels : 0.0},
-        {"largest error bound", counters.largestBound / 256.0},
+        {"tiles with candidates", double(tiles.withCandidates)},
+        {"candidates per tile",
+         tiles.withCandidates > 0 ? double(tiles.candidates) / tiles.withCandidates : 0.0},
+        {"most candidates in a tile", double(tiles.mostCandidates)},
+        {"tiles beyond their room", double(tiles.full)},
+        {"tiles looked at", double(busy.count)},
+        {"penumbra pixels", double(bounds.pixels)},
+        {"mean error bound", bounds.pixels > 0 ? bounds.sum / bounds.pixels : 0.0},
+        {"largest error bound", bounds.largest},
         {"memory",
-         double(soup_.size_bytes() + lists_.size_bytes() + tiles_.size_bytes() + busy_.size_bytes() +
-                states_.size_bytes() + rounds_.size_bytes() + weights_.size_bytes() +
-                2 * std::size_t(errorBound_.width_px()) * std::size_t(errorBound_.height_px())) /
+         double(soup_.size_bytes() + lists_.size_bytes() + busy_.size_bytes() + states_.size_bytes() +
+                rounds_.size_bytes() + answer_.size_bytes() + receivers_.size_bytes()) /
              (1 << 20),
          "MiB"},
     };

@@ -20,7 +20,9 @@
 #include "src/techniques/common/view_constants.h"
 #include "src/techniques/exact_visibility/caster_soup.h"
 #include "src/techniques/exact_visibility/exact_io.h"
+#include "src/techniques/exact_visibility/light_answer.h"
 #include "src/techniques/exact_visibility/light_lattice.h"
+#include "src/techniques/exact_visibility/receiver_watch.h"
 
 namespace penumbra::exact_visibility {
 
@@ -44,11 +46,6 @@ class ExactVisibility final : public Technique {
     Statistics statistics() const override;
 
   private:
-    struct Counters {
-        std::uint32_t triangleSum = 0, largestTile = 0, tilesWithCandidates = 0, fullTiles = 0;
-        std::uint32_t boundedPixels = 0, boundSum = 0, largestBound = 0;
-    };
-
     /// What a program that resolves is made for.
     struct ResolveKind {
         int rows;       ///< of the lattice
@@ -59,6 +56,7 @@ class ExactVisibility final : public Technique {
 
     const gl::Program& resolveFor(const ResolveKind& kind);
     void allocate(int width_px, int height_px, int rows, int rounds);
+    bool canKeep(const AreaLight& light, bool isSameView);
     std::size_t countSpecial(const ExactLight& light, LightShape shape) const;
     int roundsFor(std::span<const LightLattice> lattices, std::size_t special) const;
     const std::vector<LightLattice>& latticesFor(const AreaLight& light);
@@ -72,15 +70,18 @@ class ExactVisibility final : public Technique {
 
     Device::Internals& device_;
     CasterSoup soup_;
-    gl::Program candidates_, weigh_;
+    gl::Program candidates_, weigh_, restore_;
     std::map<ResolveKind, gl::Program> resolve_;
     std::map<std::pair<int, bool>, std::vector<LightLattice>> lattices_;  // by samples, and whether in a disk
     ViewBinding view_;
     gl::ConstantBuffer<ExactLight> light_;
     gl::StorageArray<glm::vec4> masks_;
-    gl::Buffer busy_, tiles_, lists_, counters_, states_, rounds_, weights_;
-    gl::Texture errorBound_;
-    std::size_t tileCount_ = 0;
+    gl::StorageArray<glm::vec4> changedBoxes_;
+    gl::Buffer busy_, lists_, states_, rounds_;
+    ReceiverWatch receivers_;
+    LightAnswer answer_;
+    std::vector<std::byte> key_;  ///< of the light that is asked for
+    std::uint32_t serial_ = 0;    ///< of the frame
     gl::PassTimers timers_;
 };
 

@@ -6,6 +6,9 @@
 #include "src/techniques/common/light_io.h"
 
 #ifdef __cplusplus
+#include <array>
+#include <cstddef>
+
 namespace penumbra::exact_visibility {
 #endif
 
@@ -22,6 +25,9 @@ namespace penumbra::exact_visibility {
 #define EXACT_MAX_LATTICES 4  // what more than 256 samples are split into
 
 #define EXACT_GROUP_TEXTURES 8  // alpha textures that are bound at a time
+
+#define EXACT_TILE 8           // pixels along each side of a tile
+#define EXACT_MOST_CHANGED 32  // casters that may change from frame to frame while anything is kept
 
 #define EXACT_GROUPS_ACROSS 32768u  // in the x direction of a dispatch
 
@@ -74,7 +80,25 @@ SHARED_STRUCT ExactRound {
     int groups;      // of alpha textures, each with turns of its own
 };
 
+/// A look at all receivers.
+SHARED_STRUCT ExactLook {
+    uint serial;
+    uint words;  // that are kept of a pixel
+};
+
+/// What of a light's last answer may stay.
+SHARED_STRUCT ExactKeeping {
+    bool32 keeps;      // tiles whose revision is as it was
+    int changedBoxes;  // around casters that are not as they were
+};
+
 #ifdef __cplusplus
+/// As weights.glsl has it.
+struct ExactWeights {
+    alignas(16) std::uint32_t changedAt;
+    std::array<vec4, std::size_t(EXACT_MAX_LATTICES* EXACT_MAX_ROWS* EXACT_MAX_ROWS)> means;
+};
+
 static_assert(sizeof(ExactLight) ==
               32 + 16 * (10 + EXACT_MAX_LATTICES + EXACT_MAX_LATTICES * EXACT_MAX_ROWS / 4));
 static_assert(sizeof(TileList) == 16 && sizeof(ExactRound) == 16);

@@ -24,7 +24,7 @@ layout(std140) uniform Constants { ExactRound round_; };
 layout(std430) readonly buffer Candidates { uint candidates[]; };
 layout(std430) readonly buffer TileLists { TileList tileLists[]; };
 layout(std430) readonly buffer Busy { BusyTiles busy; uint busyTiles[]; };
-layout(std430) readonly buffer Weights { vec4 weights[]; };
+layout(std430) readonly buffer Weights { uint weightsChangedAt; vec4 weights[]; };
 uniform writeonly image2D visibility;
 layout(r16f) uniform writeonly image2D errorBound;
 uniform sampler2D radiance;
@@ -369,10 +369,4 @@ void main() {
     imageStore(visibility, pixel, vec4(clamp(value, 0.0, 1.0), 1.0));
     float bound = sums.samples > 0.0 ? min(0.5 * sums.borders / sums.samples, 1.0) : 0.0;
     imageStore(errorBound, pixel, vec4(bound));
-    if (bound > 0.0) {
-        uint parts = uint(ceil(256.0 * bound));
-        atomicAdd(boundedPixels, 1u);
-        atomicAdd(boundSum, parts);
-        atomicMax(largestBound, parts);
-    }
 }

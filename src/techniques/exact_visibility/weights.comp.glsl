@@ -8,7 +8,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140) uniform LightBlock { ExactLight light; };
 #include "src/techniques/exact_visibility/weights.glsl"
 
-layout(std430) writeonly buffer Weights { vec4 weights[]; };
+layout(std430) buffer Weights { uint weightsChangedAt; vec4 weights[]; };
+layout(std140) uniform Constants { ExactLook look; };
 uniform sampler2D radiance;
 
 void main() {
@@ -29,5 +30,8 @@ void main() {
         sum += emitted(textureLod(radiance, 0.5 * uv + 0.5, 0.0).rgb);
         count += 1.0;
     }
-    weights[weightIndex(lattice, ij.x, ij.y)] = vec4(sum / count, 0.0);  // the sample itself lies inside
+    vec4 mean = vec4(sum / count, 0.0);  // the sample itself lies inside
+    int place = weightIndex(lattice, ij.x, ij.y);
+    if (weights[place] != mean) weightsChangedAt = look.serial;
+    weights[place] = mean;
 }

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-#include "src/techniques/light_sampling/input_key.h"
+#include "src/techniques/common/input_key.h"
 
 namespace penumbra::light_sampling {
 namespace {

@@ -68,7 +68,7 @@ const gl::Program& SampleLookup::prepare(const AreaLight& light, const SampleCam
 
 SampleEvaluation::SampleEvaluation(Device& device)
     : lookup_(device, {"src/techniques/light_sampling/evaluate.comp.glsl"}),
-      restore_(internalsOf(device).shaders, {"src/techniques/light_sampling/restore.comp.glsl"}) {}
+      restore_(internalsOf(device).shaders, {"src/techniques/common/restore.comp.glsl"}) {}
 
 void SampleEvaluation::restore(VisibilityBuffer& out) {
     gl::Pass(restore_)

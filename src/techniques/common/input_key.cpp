@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "src/techniques/light_sampling/input_key.h"
+#include "src/techniques/common/input_key.h"
 
-namespace penumbra::light_sampling {
+namespace penumbra {
 
-bool appendInputs(std::vector<std::byte>& key, const ShadowInputs& inputs) {
-    const View& view = inputs.view;
+void appendView(std::vector<std::byte>& key, const View& view) {
     appendBytes(key, view.width_px);
     appendBytes(key, view.height_px);
     appendBytes(key, view.viewFromWorld);
     appendBytes(key, view.clipFromView);
     appendBytes(key, view.depth.range);
     appendBytes(key, view.depth.reversed);
-    const AreaLight& light = inputs.light;
+}
+
+void appendLight(std::vector<std::byte>& key, const AreaLight& light) {
     appendBytes(key, light.shape);
     appendBytes(key, light.worldFromLight);
     for (const float size : {light.width_m, light.height_m, light.length_m, light.radius_m, light.angle_rad})
         appendBytes(key, size);
     appendBytes(key, light.twoSided);
     appendBytes(key, light.radianceTexture);
+}
+
+bool appendInputs(std::vector<std::byte>& key, const ShadowInputs& inputs) {
+    appendView(key, inputs.view);
+    appendLight(key, inputs.light);
     bool isKnown = true;
     for (const Caster& caster : inputs.casters) {
         appendBytes(key, caster.mesh->id());
@@ -35,4 +41,4 @@ bool appendInputs(std::vector<std::byte>& key, const ShadowInputs& inputs) {
     return isKnown;
 }
 
-}  // namespace penumbra::light_sampling
+}  // namespace penumbra
