@@ -10,6 +10,7 @@
 #include "studio/scene/builtin/builtin.h"
 #include "studio/scene/builtin/placing.h"
 #include "studio/scene/profiles/light_profile.h"
+#include "studio/scene/profiles/luminaire.h"
 #include "tests/support/technique_test.h"
 
 namespace penumbra::studio {
@@ -133,6 +134,12 @@ Light profiledLight(const AreaLight& shape, bool isLuminaire, double height_m, d
     return light;
 }
 
+/// From the light's own axes to those that its candela are told in.
+glm::dmat3 profileFromShape(const Light& light) {
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1), -double(light.profile->turn_rad), glm::dvec3(0, 0, 1));
+    return glm::dmat3(turn) * glm::dmat3(light.profile->luminaireFromShape);
+}
+
 /// Lux on the floor's middle by summing over a fine grid of the light, in double precision.
 double summedLux(const Light& light) {
     constexpr int n = 400;
@@ -147,7 +154,7 @@ double summedLux(const Light& light) {
         x = glm::normalize(glm::cross(pos, glm::dvec3(1, 0, 0)));
         y = glm::normalize(glm::cross(pos, x));
     }
-    const glm::dmat3 turn(glm::rotate(glm::dmat4(1), -double(light.profile->turn_rad), glm::dvec3(0, 0, 1)));
+    const glm::dmat3 turn = profileFromShape(light);
     const bool isLuminaire = light.emission.unit == Emission::Unit::candela;
     double sum = 0, area = 0;
     for (int i = 0; i < n; ++i)
@@ -172,7 +179,7 @@ double summedLuxOfTube(const Light& light) {
     const glm::dmat4 worldFromLight = fromPenumbra(light.shape.worldFromLight);
     const glm::dvec3 pos(glm::inverse(worldFromLight) * glm::dvec4(0, 0, 0, 1));
     const glm::dvec3 normal = glm::transpose(glm::dmat3(worldFromLight)) * glm::dvec3(0, 1, 0);
-    const glm::dmat3 turn(glm::rotate(glm::dmat4(1), -double(light.profile->turn_rad), glm::dvec3(0, 0, 1)));
+    const glm::dmat3 turn = profileFromShape(light);
     const bool isLuminaire = light.emission.unit == Emission::Unit::candela;
     const double length = light.shape.length_m, radius = light.shape.radius_m;
     const double away = std::hypot(pos.y, pos.z), outermost = std::acos(radius / away);
@@ -201,18 +208,23 @@ double centerLux(const Light& light) {
 }
 
 TEST_F(FrameTest, LuminairesAreCandelaFromAfar) {
-    const AreaLight panel{.shape = LightShape::rect, .width_m = 0.6f, .height_m = 0.3f};
-    // Not straight below: candela has a ridge there, over which the panel is no point however far it is.
-    for (const double beside_m : {1.5, 2.5}) {
-        const Light light = profiledLight(panel, true, 4, beside_m);  // beyond five times its size
-        const double distance2 = 16 + beside_m * beside_m;
-        const glm::dmat3 turn(glm::rotate(glm::dmat4(1), -0.4, glm::dvec3(0, 0, 1)));
-        const glm::dvec3 down =
-            glm::transpose(glm::dmat3(glm::dmat4(fromPenumbra(light.shape.worldFromLight)))) *
-            glm::dvec3(-beside_m, -4, 0);
-        const double candela = light.profile->profile->grid.at(turn * down);
-        const double farField = candela * 4 / std::sqrt(distance2) / distance2;
-        EXPECT_NEAR(centerLux(light), farField, 0.01 * farField) << beside_m;
+    // All 0.8 m at most; they hang five times that away and more.
+    const AreaLight shapes[] = {{.shape = LightShape::rect, .width_m = 0.6f, .height_m = 0.3f},
+                                {.shape = LightShape::disk, .radius_m = 0.4f},
+                                {.shape = LightShape::sphere, .radius_m = 0.4f},
+                                {.shape = LightShape::cylinder, .length_m = 0.8f, .radius_m = 0.02f}};
+    for (const AreaLight& shape : shapes) {
+        // Not straight below: candela has a ridge there, over which the panel is no point however far it is.
+        for (const double beside_m : {1.5, 2.5}) {
+            const Light light = profiledLight(shape, true, 4, beside_m);
+            const double distance2 = 16 + beside_m * beside_m;
+            const glm::dvec3 down =
+                glm::transpose(glm::dmat3(glm::dmat4(fromPenumbra(light.shape.worldFromLight)))) *
+                glm::dvec3(-beside_m, -4, 0);
+            const double candela = light.profile->profile->grid.at(profileFromShape(light) * down);
+            const double farField = candela * 4 / std::sqrt(distance2) / distance2;
+            EXPECT_NEAR(centerLux(light), farField, 0.01 * farField) << int(shape.shape) << " " << beside_m;
+        }
     }
 }
 
@@ -232,6 +244,56 @@ TEST_F(FrameTest, ProfilesShapeLightsOfAnyShape) {
                     EXPECT_NEAR(centerLux(light), right, 0.02 * right)
                         << int(shape.shape) << " " << isLuminaire << " " << height_m << " " << beside_m;
                 }
+}
+
+TEST_F(FrameTest, UprightTubesAndStandingPanelsShineAboutTheLuminairesAxis) {
+    // Put where a luminaire's file has an upright cylinder, a panel that faces C0, and one that faces C90.
+    using Shape = LuminousOpening::Shape;
+    for (const LuminousOpening& opening :
+         {LuminousOpening{Shape::circle, 0.1, 0.1, 0.6}, LuminousOpening{Shape::rectangle, 0, 0.5, 0.3},
+          LuminousOpening{Shape::rectangle, 0.5, 0, 0.3}}) {
+        const NearestLight nearest = nearestLight(opening, false, true);
+        for (const double height_m : {1.0, 2.5})
+            for (const double beside_m : {0.7, 1.6}) {
+                Light light = profiledLight(nearest.shape, true, height_m, beside_m);
+                const glm::mat4 hung = worldFromLightOf(light);
+                light.profile->luminaireFromShape = nearest.luminaireFromShape;
+                place(light, hung);
+                const bool isTube = light.shape.shape == LightShape::cylinder;
+                const double right = isTube ? summedLuxOfTube(light) : summedLux(light);
+                EXPECT_NEAR(centerLux(light), right, 0.02 * right)
+                    << opening.name() << " " << height_m << " " << beside_m;
+                // Far enough for the middle alone to tell in which direction: a turn taken wrongly shows.
+                const glm::dvec3 from(beside_m, height_m, 0);
+                const glm::dvec3 away = glm::transpose(glm::dmat3(hung)) * -from;
+                const glm::dmat3 turn(glm::rotate(glm::dmat4(1), -0.4, glm::dvec3(0, 0, 1)));
+                const double candela = light.profile->profile->grid.at(turn * away);
+                const double distance = glm::length(from);
+                EXPECT_NEAR(right, candela * height_m / std::pow(distance, 3), 0.12 * right);
+            }
+    }
+}
+
+TEST_F(FrameTest, AngleScalesStretchProfilesAboutOneEnd) {
+    // UsdLux: above 0 what was sent at gamma is sent at scale * gamma; below 0 the same counted from above.
+    constexpr double height_m = 3, beside_m = 2.5;
+    Light light = profiledLight({.shape = LightShape::sphere}, false, height_m, beside_m);
+    light.emission.unit = Emission::Unit::candela;  // a point
+    const glm::dmat3 lightFromWorld =
+        glm::transpose(glm::dmat3(glm::dmat4(fromPenumbra(light.shape.worldFromLight))));
+    const glm::dvec3 away = profileFromShape(light) * lightFromWorld * glm::dvec3(-beside_m, -height_m, 0);
+    const double gamma_deg = glm::degrees(std::atan2(std::hypot(away.x, away.y), -away.z));
+    const double c_deg = glm::degrees(std::atan2(away.y, away.x));
+    for (const float scale : {0.0f, 0.75f, 1.0f, 1.6f, -0.75f, -0.9f, -1.2f}) {
+        light.profile->angleScale = scale;
+        const double read_deg = scale > 0   ? gamma_deg / double(scale)
+                                : scale < 0 ? 180 - (180 - gamma_deg) / -double(scale)
+                                            : gamma_deg;
+        const double candela =
+            read_deg < 0 ? 0 : light.profile->profile->grid.at(directionOf(read_deg, c_deg));
+        const double right = candela * height_m / std::pow(std::hypot(height_m, beside_m), 3);
+        EXPECT_NEAR(centerLux(light), right, 1e-3 * right + 1e-6) << scale;
+    }
 }
 
 TEST_F(FrameTest, ProfilesOfAllTypesAreReadAsOnTheCpu) {

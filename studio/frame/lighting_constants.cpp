@@ -34,17 +34,18 @@ ProfileConstants profileConstants(const Light& light) {
     const CandelaGrid& grid = light.profile->profile->grid;
     using Type = CandelaGrid::Type;
     return {
+        .towardsC0 = towardsC0(*light.profile),
         .type = grid.type == Type::A   ? profileTypeA
                 : grid.type == Type::B ? profileTypeB
                                        : profileTypeC,
+        .towardsZenith = towardsZenith(*light.profile),
+        .firstPlane_rad = float(glm::radians(grid.firstPlane_deg)),
         .verticals = int(grid.verticals_deg.size()),
         .horizontals = int(grid.horizontals_deg.size()),
-        .firstPlane_rad = float(glm::radians(grid.firstPlane_deg)),
-        .isMirrored = grid.horizontals_deg.front() == 0,
-        .isLuminaire = light.profile->isLuminaire,
-        .turn_rad = turnOfC0_rad(*light.profile),
         .angleScale = light.profile->angleScale,
         .factor = light.profile->factor * light.profile->tilt,
+        .isMirrored = grid.horizontals_deg.front() == 0,
+        .isLuminaire = light.profile->isLuminaire,
     };
 }
 

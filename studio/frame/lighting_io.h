@@ -17,15 +17,16 @@ const int profileTypeC = 3;
 
 /// The grid of a profile: angles and values are in the buffer `Profile`, verticals, horizontals, candela.
 SHARED_STRUCT ProfileConstants {
-    int type;  // noProfile, ...
+    vec3 towardsC0;  // in the light's space
+    int type;        // noProfile, ...
+    vec3 towardsZenith;
+    float firstPlane_rad;  // type C
     int verticals;
     int horizontals;
-    float firstPlane_rad;  // type C
-    bool32 isMirrored;     // types A and B: -H as H
-    bool32 isLuminaire;    // of candela by share of area; else a factor of the luminance
-    float turn_rad;        // of C0, from +X towards +Y
-    float angleScale;      // UsdLux's
+    float angleScale;  // UsdLux's
     float factor;
+    bool32 isMirrored;   // types A and B: -H as H
+    bool32 isLuminaire;  // of candela by share of area; else a factor of the luminance
 };
 
 SHARED_STRUCT LightingConstants {
@@ -47,8 +48,8 @@ SHARED_STRUCT LightingConstants {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ProfileConstants) == 48);
-static_assert(sizeof(LightingConstants) == 256);
+static_assert(sizeof(ProfileConstants) == 64);
+static_assert(sizeof(LightingConstants) == 272);
 }  // namespace penumbra::studio
 #endif
 #endif

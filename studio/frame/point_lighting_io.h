@@ -15,7 +15,7 @@ SHARED_STRUCT PointLightingConstants {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(PointLightingConstants) == 272);
+static_assert(sizeof(PointLightingConstants) == 288);
 }  // namespace penumbra::studio
 #endif
 #endif

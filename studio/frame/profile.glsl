@@ -38,9 +38,12 @@ float foldedPlane(ProfileConstants profile, float c) {
 }
 
 // For a direction of length 1 away from the light.
-float profileCandela(ProfileConstants profile, vec3 direction) {
+float profileCandela(ProfileConstants profile, vec3 directionLight) {
+    vec3 towardsC90 = cross(profile.towardsZenith, profile.towardsC0);
+    vec3 direction = vec3(dot(directionLight, profile.towardsC0), dot(directionLight, towardsC90),
+                          dot(directionLight, profile.towardsZenith));
     float gamma = atan(length(direction.xy), -direction.z);
-    float c = direction.xy == vec2(0.0) ? 0.0 : atan(direction.y, direction.x) - profile.turn_rad;
+    float c = direction.xy == vec2(0.0) ? 0.0 : atan(direction.y, direction.x);
     if (profile.angleScale > 0.0) gamma /= profile.angleScale;
     if (profile.angleScale < 0.0) gamma = pi - (pi - gamma) / -profile.angleScale;
     if (gamma < 0.0 || gamma > pi) return 0.0;

@@ -108,8 +108,8 @@ struct LightProfile;
 struct ProfiledEmission {
     std::shared_ptr<const LightProfile> profile;  ///< never null
     bool isLuminaire = false;  ///< each part of the light sends the candela by its share of the area
-    /// The shape's X lies along the luminaire's Y, its Y against the luminaire's X: tubes along C90.
-    bool liesAlongY = false;
+    /// A rotation: the axes of the light's shape in the luminaire's space.
+    glm::mat3 luminaireFromShape{1};
     float turn_rad = 0;    ///< of its C0, from the light's, or the luminaire's, +X towards +Y
     float angleScale = 0;  ///< UsdLux's shaping:ies:angleScale
     float factor = 1;      ///< of its candela

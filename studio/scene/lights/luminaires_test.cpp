@@ -100,13 +100,43 @@ TEST_F(Luminaires, TubesLieAlongC0OrC90) {
     EXPECT_NEAR(across.shape.worldFromLight.columns[0][2], -1, 1e-6);
     EXPECT_NEAR(across.shape.worldFromLight.columns[2][1], 1, 1e-6);
     // C0 stays where it was: 30 degrees off the luminaire's X.
-    EXPECT_NEAR(glm::degrees(turnOfC0_rad(*along.profile)), 30, 1e-4);
-    EXPECT_NEAR(glm::degrees(turnOfC0_rad(*across.profile)), -60, 1e-4);
+    const auto c0_deg = [](const Light& light) {
+        const glm::vec3 c0 = towardsC0(*light.profile);
+        EXPECT_NEAR(glm::distance(towardsZenith(*light.profile), glm::vec3(0, 0, 1)), 0, 1e-6);
+        return glm::degrees(std::atan2(c0.y, c0.x));
+    };
+    EXPECT_NEAR(c0_deg(along), 30, 1e-4);
+    EXPECT_NEAR(c0_deg(across), -60, 1e-4);
 
     write("oval.ies", panel("NONE", "180", "-0.04 1.2 -0.09"));
     const Scene oval = sceneWith(R"("type": "LuminaireLight", "file": "oval.ies")");
     ASSERT_EQ(oval.warnings.size(), 1u);
     EXPECT_NE(oval.warnings[0].find("is taken for a round tube"), std::string::npos) << oval.warnings[0];
+}
+
+TEST_F(Luminaires, PillarsAreUprightTubes) {
+    // 100 cd at 60 degrees and at 120, nothing straight down and up.
+    const auto pillar = [](const std::string& downwards) {
+        return "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 4 1 1 2 -0.2 -0.2 0.9\n1 1 10\n0 60 120 180\n0\n" +
+               downwards + " 100 100 0\n";
+    };
+    write("pillar.ies", pillar("0.5"));
+    const std::string place = std::string(R"(, "translation": [1, 2, 3], "turn": 30)") + down;
+    const Scene scene = sceneWith(R"("type": "LuminaireLight", "file": "pillar.ies")" + place);
+    EXPECT_TRUE(scene.warnings.empty());
+    const Light light = scene.at(0).lights.at(0);
+    ASSERT_EQ(light.shape.shape, LightShape::cylinder);
+    EXPECT_FLOAT_EQ(light.shape.length_m, 0.9f);
+    EXPECT_FLOAT_EQ(light.shape.radius_m, 0.1f);
+    EXPECT_NEAR(light.shape.worldFromLight.columns[0][1], 1, 1e-6) << "its length stands";
+    EXPECT_NEAR(glm::distance(towardsZenith(*light.profile), glm::vec3(1, 0, 0)), 0, 1e-6);
+    // 30 degrees off the luminaire's X, which is the tube's -Z, towards its Y.
+    EXPECT_NEAR(glm::distance(towardsC0(*light.profile), glm::vec3(0, 0.5f, -std::sqrt(0.75f))), 0, 1e-6);
+
+    write("downlight.ies", pillar("40"));
+    const Scene downlight = sceneWith(R"("type": "LuminaireLight", "file": "downlight.ies")" + place);
+    EXPECT_EQ(downlight.at(0).lights.at(0).shape.shape, LightShape::sphere);
+    EXPECT_EQ(downlight.warnings.size(), 1u);
 }
 
 TEST_F(Luminaires, LoseLightByBeingTilted) {

@@ -121,6 +121,11 @@ bool CandelaGrid::shinesUp() const {
     return false;
 }
 
+bool CandelaGrid::isDarkAlongAxis() const {
+    constexpr double nextToNothing = 0.01;
+    return std::max(at({0, 0, -1}), at({0, 0, 1})) <= nextToNothing * double(largest());
+}
+
 double CandelaGrid::integral() const {
     // The solid angle is sin(gamma) dgamma dC, cos H dH dV and cos V dV dH.
     std::vector<double> v, h;

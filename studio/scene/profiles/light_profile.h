@@ -44,6 +44,10 @@ struct CandelaGrid {
     /// Whether any light leaves above the horizontal plane, that of gamma = 90.
     bool shinesUp() const;
 
+    /// Whether next to nothing leaves straight down or up, as from the side of an upright tube: at most a
+    /// hundredth of the largest candela.
+    bool isDarkAlongAxis() const;
+
     /// Lumens: the integral over the sphere of what at() gives, in closed form.
     double integral() const;
 

@@ -263,19 +263,51 @@ TEST(Lm63, OpeningsByTheVersionsOwnTables) {
 
 TEST(Lm63, NearestLights) {
     using Shape = LuminousOpening::Shape;
-    const NearestLight panel = nearestLight({Shape::rectangle, 1.2, 0.6, 0}, false);
+    const NearestLight panel = nearestLight({Shape::rectangle, 1.2, 0.6, 0}, false, false);
     EXPECT_EQ(panel.shape.shape, LightShape::rect);
     EXPECT_FLOAT_EQ(panel.shape.width_m, 1.2f);
     EXPECT_FLOAT_EQ(panel.shape.height_m, 0.6f);
     EXPECT_FALSE(panel.shape.twoSided);
     EXPECT_TRUE(panel.note.empty());
-    const NearestLight box = nearestLight({Shape::rectangle, 1.2, 0.6, 0.1}, true);
+    const NearestLight box = nearestLight({Shape::rectangle, 1.2, 0.6, 0.1}, true, false);
     EXPECT_TRUE(box.shape.twoSided);
     EXPECT_FALSE(box.note.empty());
-    EXPECT_EQ(nearestLight({Shape::circle, 0.3, 0.3, 0}, false).shape.shape, LightShape::disk);
-    EXPECT_EQ(nearestLight({Shape::circle, 0.1, 0.1, 0.5}, true).shape.shape, LightShape::sphere);
-    EXPECT_EQ(nearestLight({}, false).shape.shape, LightShape::sphere);
-    EXPECT_EQ(nearestLight({}, false).shape.radius_m, 0);
+    EXPECT_EQ(nearestLight({Shape::circle, 0.3, 0.3, 0}, false, true).shape.shape, LightShape::disk);
+    EXPECT_EQ(nearestLight({}, false, false).shape.shape, LightShape::sphere);
+    EXPECT_EQ(nearestLight({}, false, false).shape.radius_m, 0);
+}
+
+TEST(Lm63, NearestLightsOfWhatStands) {
+    using Shape = LuminousOpening::Shape;
+    // Tubes' ends are dark: what shines straight down is none.
+    EXPECT_EQ(nearestLight({Shape::circle, 0.1, 0.1, 0.5}, true, false).shape.shape, LightShape::sphere);
+    const NearestLight pillar = nearestLight({Shape::circle, 0.1, 0.1, 0.5}, true, true);
+    EXPECT_EQ(pillar.shape.shape, LightShape::cylinder);
+    EXPECT_FLOAT_EQ(pillar.shape.length_m, 0.5f);
+    EXPECT_FLOAT_EQ(pillar.shape.radius_m, 0.05f);
+    EXPECT_TRUE(pillar.note.empty()) << pillar.note;
+    EXPECT_EQ(pillar.luminaireFromShape[0], glm::vec3(0, 0, 1));  // its length stands
+    EXPECT_FALSE(nearestLight({Shape::circle, 0.1, 0.2, 0.5}, true, true).note.empty());
+    EXPECT_EQ(nearestLight({Shape::circle, 0.5, 0.5, 0.1}, true, true).shape.shape, LightShape::disk);
+
+    const NearestLight wheel = nearestLight({Shape::standing, 0, 0.3, 0.3}, false, false);
+    EXPECT_EQ(wheel.shape.shape, LightShape::disk);
+    EXPECT_FLOAT_EQ(wheel.shape.radius_m, 0.15f);
+    EXPECT_TRUE(wheel.shape.twoSided);
+    EXPECT_TRUE(wheel.note.empty()) << wheel.note;
+    EXPECT_EQ(wheel.luminaireFromShape[2], glm::vec3(1, 0, 0));  // it faces C0
+
+    const LuminousOpening edges[] = {{Shape::rectangle, 0, 0.6, 0.2}, {Shape::rectangle, 0.6, 0, 0.2}};
+    for (const LuminousOpening& edge : edges) {
+        EXPECT_EQ(edge.name(), "standing rectangle");
+        const NearestLight nearest = nearestLight(edge, false, false);
+        EXPECT_EQ(nearest.shape.shape, LightShape::rect);
+        EXPECT_FLOAT_EQ(nearest.shape.width_m, 0.6f);
+        EXPECT_FLOAT_EQ(nearest.shape.height_m, 0.2f);
+        EXPECT_TRUE(nearest.shape.twoSided);
+        EXPECT_EQ(nearest.luminaireFromShape * glm::vec3(0, 1, 0), glm::vec3(0, 0, 1));
+        EXPECT_FLOAT_EQ(glm::determinant(nearest.luminaireFromShape), 1);
+    }
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <bit>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace penumbra::studio {
@@ -11,24 +10,21 @@ namespace penumbra::studio {
 std::string makeLuminaire(std::shared_ptr<const LightProfile> profile, float turn_rad,
                           const glm::vec3& emission, Light& light) {
     const glm::mat4 worldFromLight = worldFromLightOf(light);
-    NearestLight nearest = nearestLight(profile->opening, profile->grid.shinesUp());
+    NearestLight nearest =
+        nearestLight(profile->opening, profile->grid.shinesUp(), profile->grid.isDarkAlongAxis());
     light.shape = nearest.shape;
     light.emission = {Emission::Unit::candela, emission};
     light.profile = {.profile = std::move(profile),
                      .isLuminaire = true,
-                     .liesAlongY = nearest.liesAlongY,
+                     .luminaireFromShape = nearest.luminaireFromShape,
                      .turn_rad = turn_rad};
     place(light, worldFromLight);
     return std::move(nearest.note);
 }
 
 void place(Light& light, const glm::mat4& worldFromLight) {
-    glm::mat4 worldFromShape = worldFromLight;
-    if (light.profile && light.profile->liesAlongY) {
-        worldFromShape[0] = worldFromLight[1];
-        worldFromShape[1] = -worldFromLight[0];
-    }
-    light.shape.worldFromLight = std::bit_cast<Mat4>(worldFromShape);
+    const glm::mat4 lightFromShape(light.profile ? light.profile->luminaireFromShape : glm::mat3(1));
+    light.shape.worldFromLight = std::bit_cast<Mat4>(worldFromLight * lightFromShape);
     if (!light.profile || !light.profile->isLuminaire) return;
     const glm::vec3 up(worldFromLight[2]);
     const double tilt_deg = glm::degrees(std::atan2(std::hypot(up.x, up.z), up.y));
@@ -37,16 +33,17 @@ void place(Light& light, const glm::mat4& worldFromLight) {
 
 glm::mat4 worldFromLightOf(const Light& light) {
     const auto worldFromShape = std::bit_cast<glm::mat4>(light.shape.worldFromLight);
-    glm::mat4 worldFromLight = worldFromShape;
-    if (light.profile && light.profile->liesAlongY) {
-        worldFromLight[0] = -worldFromShape[1];
-        worldFromLight[1] = worldFromShape[0];
-    }
-    return worldFromLight;
+    if (!light.profile) return worldFromShape;
+    return worldFromShape * glm::mat4(glm::transpose(light.profile->luminaireFromShape));
 }
 
-float turnOfC0_rad(const ProfiledEmission& profile) {
-    return profile.turn_rad - (profile.liesAlongY ? 0.5f * std::numbers::pi_v<float> : 0.0f);
+glm::vec3 towardsC0(const ProfiledEmission& profile) {
+    return glm::transpose(profile.luminaireFromShape) *
+           glm::vec3(std::cos(profile.turn_rad), std::sin(profile.turn_rad), 0);
+}
+
+glm::vec3 towardsZenith(const ProfiledEmission& profile) {
+    return glm::transpose(profile.luminaireFromShape) * glm::vec3(0, 0, 1);
 }
 
 }  // namespace penumbra::studio

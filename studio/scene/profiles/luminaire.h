@@ -17,11 +17,14 @@ std::string makeLuminaire(std::shared_ptr<const LightProfile> profile, float tur
 /// Puts a light of any kind there; a luminaire gives what its file says of its tilt.
 void place(Light& light, const glm::mat4& worldFromLight);
 
-/// Where it was put: of all but tubes along a luminaire's Y (ProfiledEmission::liesAlongY) the place of its
-/// shape.
+/// Where it was put: the place of its shape, unless that is turned within the luminaire
+/// (ProfiledEmission::luminaireFromShape).
 glm::mat4 worldFromLightOf(const Light& light);
 
-/// From the X axis of the light's shape to C0 of its profile, towards Y.
-float turnOfC0_rad(const ProfiledEmission& profile);
+/// Of unit length, in the space of the light's shape: C0 of its profile.
+glm::vec3 towardsC0(const ProfiledEmission& profile);
+
+/// The same of the profile's zenith, gamma = 180.
+glm::vec3 towardsZenith(const ProfiledEmission& profile);
 
 }  // namespace penumbra::studio

@@ -76,6 +76,12 @@ LuminousOpening sized(Shape shape, double width_m, double length_m, double heigh
     return opening;
 }
 
+/// Axes of shapes in the luminaire's space that do not lie in it as they are.
+constexpr glm::mat3 alongY({0, 1, 0}, {-1, 0, 0}, {0, 0, 1});
+constexpr glm::mat3 upright({0, 0, 1}, {0, 1, 0}, {-1, 0, 0});
+constexpr glm::mat3 facingX({0, 1, 0}, {0, 0, 1}, {1, 0, 0});
+constexpr glm::mat3 facingY({1, 0, 0}, {0, 0, 1}, {0, -1, 0});
+
 /// Half the diameter of the circle of an ellipse's area.
 double meanRadius(double a_m, double b_m) {
     return 0.5 * std::sqrt(a_m * b_m);
@@ -88,6 +94,7 @@ std::string LuminousOpening::name() const {
         case Shape::point:
             return "point";
         case Shape::rectangle:
+            if (x_m == 0 || y_m == 0) return "standing rectangle";
             return z_m > 0 ? "box" : "rectangle";
         case Shape::circle:
             if (z_m > 0) return x_m == y_m ? "upright cylinder" : "upright elliptical cylinder";
@@ -122,14 +129,19 @@ OpeningReading readLm63Opening(int year, double width_m, double length_m, double
     return {{}, fmt::format("{} is in no version's table of LM-63; taken for a point", numbers)};
 }
 
-NearestLight nearestLight(const LuminousOpening& opening, bool up) {
+NearestLight nearestLight(const LuminousOpening& opening, bool up, bool darkAlongAxis) {
     NearestLight nearest;
     AreaLight& light = nearest.shape;
-    const auto flat = [&](double x_m, double y_m) {
+    const auto flat = [&](double x_m, double y_m, bool twoSided) {
         light.shape = LightShape::rect;
         light.width_m = float(x_m);
         light.height_m = float(y_m);
-        light.twoSided = up;
+        light.twoSided = twoSided;
+    };
+    const auto disk = [&](double radius_m, bool twoSided) {
+        light.shape = LightShape::disk;
+        light.radius_m = float(radius_m);
+        light.twoSided = twoSided;
     };
     const auto sphere = [&](double radius_m) {
         light.shape = LightShape::sphere;
@@ -150,11 +162,24 @@ NearestLight nearestLight(const LuminousOpening& opening, bool up) {
             sphere(0);
             break;
         case Shape::rectangle:
-            flat(opening.x_m, opening.y_m);
-            if (opening.z_m > 0) say("a rectangle without sides");
+            if (opening.x_m == 0) {
+                flat(opening.y_m, opening.z_m, true);
+                nearest.luminaireFromShape = facingX;
+            } else if (opening.y_m == 0) {
+                flat(opening.x_m, opening.z_m, true);
+                nearest.luminaireFromShape = facingY;
+            } else {
+                flat(opening.x_m, opening.y_m, up);
+                if (opening.z_m > 0) say("a rectangle without sides");
+            }
             break;
         case Shape::circle: {
             const double radius_m = meanRadius(opening.x_m, opening.y_m);
+            if (opening.z_m > 2 * radius_m && darkAlongAxis) {
+                tube(opening.z_m, opening.x_m, opening.y_m);
+                nearest.luminaireFromShape = upright;
+                break;
+            }
             if (opening.z_m > 2 * radius_m) {
                 // The sphere that on average over all directions shows as much: a quarter of the surface.
                 const double surface_m2 = 2 * std::numbers::pi * radius_m * (radius_m + opening.z_m);
@@ -162,9 +187,7 @@ NearestLight nearestLight(const LuminousOpening& opening, bool up) {
                 say("a sphere");
                 break;
             }
-            light.shape = LightShape::disk;
-            light.radius_m = float(radius_m);
-            light.twoSided = up;
+            disk(radius_m, up);
             if (opening.z_m > 0 || opening.x_m != opening.y_m) say("a disk of the same area");
             break;
         }
@@ -177,11 +200,12 @@ NearestLight nearestLight(const LuminousOpening& opening, bool up) {
             break;
         case Shape::tubeAlongY:
             tube(opening.y_m, opening.x_m, opening.z_m);
-            nearest.liesAlongY = true;
+            nearest.luminaireFromShape = alongY;
             break;
         case Shape::standing:
-            sphere(meanRadius(opening.y_m, opening.z_m));
-            say("a sphere");
+            disk(meanRadius(opening.y_m, opening.z_m), true);
+            nearest.luminaireFromShape = facingX;
+            if (opening.y_m != opening.z_m) say("a disk of the same area");
             break;
     }
     return nearest;

@@ -2,6 +2,7 @@
 // The part of a luminaire that shines.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <string>
 
 #include "penumbra/light.h"
@@ -40,11 +41,13 @@ OpeningReading readLm63Opening(int year, double width_m, double length_m, double
 /// A light of the library.
 struct NearestLight {
     AreaLight shape;
-    bool liesAlongY = false;  ///< a quarter turn about Z, from +X to +Y, puts it where the opening is
-    std::string note;         ///< what is not as in the opening; empty: nothing
+    glm::mat3 luminaireFromShape{1};  ///< a rotation that puts it where the opening is
+    std::string note;                 ///< what is not as in the opening; empty: nothing
 };
 
-/// The light nearest to an opening, at the origin; flat ones shine along +Z as well where `up` says so.
-NearestLight nearestLight(const LuminousOpening& opening, bool up);
+/// The light nearest to an opening, at the origin; flat ones shine along +Z as well where `up` says so, or
+/// where they stand. An upright cylinder higher than wide is a tube where what it sends is `darkAlongAxis`,
+/// as tubes' ends are, else a sphere.
+NearestLight nearestLight(const LuminousOpening& opening, bool up, bool darkAlongAxis);
 
 }  // namespace penumbra::studio
