@@ -48,6 +48,30 @@ TEST_F(MeasureCommandTest, PointsOfAListAreThoseOfAGrid) {
     EXPECT_EQ(ofList[1], ofGrid[3]);
 }
 
+TEST_F(MeasureCommandTest, TheOfficesEightPanelsAreTheIntegralOfTheirFile) {
+    // Where nothing stands in between: candela of panel.ies, linear between its angles, by cos / d^2 over
+    // 40 x 40 points of each panel, summed by a script that knows nothing of this program.
+    struct Known {
+        const char* point;
+        double lux;
+    };
+    const Known known[] = {{"0,0.75,0,0,1,0", 683.79},
+                           {"-0.9,0.75,-0.3,0,1,0", 681.01},
+                           {"2.9,0.75,0.1,0,1,0", 490.37},
+                           {"-3.3,0.75,2.3,0,1,0", 238.90},
+                           {"0.3,0,0.2,0,1,0", 590.59}};
+    std::string list;
+    for (const Known& k : known) list += std::string(k.point) + "\n";
+    write("p.csv", list);
+    const std::string panels = PENUMBRA_SOURCE_DIRECTORY "/examples/office/panels.lights.json";
+    const Outcome outcome = run("measure " + office + " --lights " + panels + " --points " + at("p.csv") +
+                                " --set samples=64 --json");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto points = nlohmann::json::parse(outcome.out)["points"];
+    for (std::size_t i = 0; i < std::size(known); ++i)
+        EXPECT_NEAR(double(points[i]["lux"]), known[i].lux, 0.002 * known[i].lux) << known[i].point;
+}
+
 TEST_F(MeasureCommandTest, PiecesMergeToTheWhole) {
     const std::string where = "measure many-lights" + plan;
     EXPECT_EQ(run(where + "--csv " + at("whole.csv")).exitCode, 0);
