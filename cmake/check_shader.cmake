@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Run by the build: GLSLANG must accept FILE as STAGE; then writes STAMP, and STAMP.d, which says on what it depends. Our
-# files use a bare #include (the library expands it), which glslangValidator knows as an extension.
+# files use a bare #include (the library expands it), which glslangValidator knows as an extension. Every included file must be
+# among those that its folder embeds.
 cmake_minimum_required(VERSION 3.25)
 file(READ ${FILE} text)
 string(REPLACE "#version 450\n" "#version 450\n#extension GL_GOOGLE_include_directive : require\n" text "${text}")
@@ -22,6 +23,13 @@ while(unread)
         if(NOT included IN_LIST files)
             list(APPEND files ${included})
             list(APPEND unread ${included})
+            # The compiler above found it on the disk; in the binary it is only if its folder names it.
+            cmake_path(GET included PARENT_PATH folder)
+            cmake_path(GET included FILENAME name)
+            file(STRINGS ${folder}/CMakeLists.txt named REGEX "(^|[ (])${name}([ )]|$)")
+            if(NOT named)
+                message(FATAL_ERROR "${file} includes ${name}: name it in ${folder}/CMakeLists.txt, too, among the penumbra_shaders")
+            endif()
         endif()
     endforeach()
 endwhile()
