@@ -40,7 +40,8 @@ void CasterClusters::allocate(const VolumeFrame& frame) {
                           "soft-volumes/cluster lists");
 }
 
-unsigned CasterClusters::add(const FrameBinding& binding, const Mesh& mesh, MeshConstants constants) {
+unsigned CasterClusters::add(const FrameBinding& binding, const Mesh& mesh, const MeshConstants& part) {
+    MeshConstants constants = part;
     const unsigned first = constants.firstTriangle / clusterTriangles;
     const unsigned added = std::min(countOf(mesh) - first, largestBatch - count_);
     constants.firstCluster = count_;

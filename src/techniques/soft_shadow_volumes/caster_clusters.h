@@ -30,7 +30,7 @@ class CasterClusters {
     void allocate(const VolumeFrame& frame);
     void clear() { count_ = 0; }
     /// Adds clusters of a mesh, from the one with `firstTriangle` on, as many as fit; returns how many.
-    unsigned add(const FrameBinding& binding, const Mesh& mesh, MeshConstants constants);
+    unsigned add(const FrameBinding& binding, const Mesh& mesh, const MeshConstants& part);
     unsigned count() const { return count_; }
     bool isFull() const { return count_ == largestBatch; }
 
