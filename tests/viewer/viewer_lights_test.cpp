@@ -307,6 +307,14 @@ TEST_F(ViewerTest, AMakersFileMakesALightThatLuminaireWhereItIs) {
         upwards_cd = std::max(upwards_cd, (300 - 280 * above_deg / 90) * std::sin(glm::radians(above_deg)));
     EXPECT_NEAR(highest, upwards_cd / 500 * reach_m, 0.02f * reach_m);
 
+    const Work loaded = session().work();
+    key("ctrl+z");
+    EXPECT_EQ(session().work(), before);
+    EXPECT_FALSE(light().profile);
+    key("ctrl+shift+z");
+    EXPECT_EQ(session().work(), loaded);
+    ASSERT_TRUE(light().profile);
+
     clickWidget("x (m)", 0.2);  // what is clicked and not pulled stays
     clickWidget("casts shadow", 0.1);
     EXPECT_EQ(light().shape.worldFromLight, frame) << "no edit turns it once more";
