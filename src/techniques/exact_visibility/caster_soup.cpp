@@ -72,23 +72,26 @@ void CasterSoup::Entry::take(const Caster& caster) {
     }
 }
 
-void CasterSoup::Entry::place(const glm::dvec3& origin) {
+void CasterSoup::Entry::place(const glm::dvec3& origin, std::vector<glm::vec3>& posScene) {
     glm::dmat4 sceneFromMesh = toGlm(worldFromMesh);
     sceneFromMesh[3] -= glm::dvec4(origin, 0);
-    std::vector<glm::vec3> posScene(positions.size());
+    posScene.resize(positions.size());
     std::ranges::transform(positions, posScene.begin(), [&](const Vec3& posMesh) {
         return glm::vec3(sceneFromMesh * glm::dvec4(toGlm(posMesh), 1));
     });
     corners.resize(indices.size());
-    std::vector<TreeBox> leaves(indices.size() / 3);
-    for (std::size_t place = 0; place < leaves.size(); ++place) {
-        const std::size_t triangle = shape.order[place];
-        for (std::size_t k = 0; k < 3; ++k) {
-            corners[3 * place + k] = posScene[indices[3 * triangle + k]];
-            leaves[triangle].add(corners[3 * place + k]);
+    const auto boxOf = [&](const TreeShape::Node& leaf) {
+        TreeBox box;
+        for (std::size_t place = leaf.first; place < leaf.first + leaf.count; ++place) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const glm::vec3& corner = posScene[indices[3 * std::size_t(shape.order[place]) + k]];
+                corners[3 * place + k] = texel(corner, 0);
+                box.add(corner);
+            }
         }
-    }
-    boxes = refitTree(shape, leaves);
+        return box;
+    };
+    refitTree(shape, boxOf, boxes);
 }
 
 bool CasterSoup::Entry::isStale(const Caster& caster) const {
@@ -134,7 +137,7 @@ void CasterSoup::update(std::span<const Caster> casters) {
         const bool changes = stale || moved || entry.mayHaveOtherHoles(caster);
         if (changes) noteChanged(entry);
         if (stale) entry.take(caster);
-        if (stale || moved) entry.place(origin);
+        if (stale || moved) entry.place(origin, posScene_);
         entry.holes = caster.alphaMask;
         if (changes) noteChanged(entry);
         entry.isSent = entry.isSent && !stale && !moved && entry.mask == mask;
@@ -178,7 +181,8 @@ void CasterSoup::send() {
 }
 
 void CasterSoup::send(Entry& entry) {
-    std::vector<glm::uvec4> texels;
+    std::vector<glm::uvec4>& texels = texels_;
+    texels.clear();
     texels.reserve(2 * entry.boxes.size());
     for (std::size_t i = 0; i < entry.boxes.size(); ++i) {
         const TreeShape::Node& node = entry.shape.nodes[i];
@@ -192,11 +196,10 @@ void CasterSoup::send(Entry& entry) {
     }
     nodes_.write(texels, 2 * entry.firstNode);
 
-    texels.clear();
-    for (std::size_t i = 0; i < entry.corners.size(); ++i) {
-        texels.push_back(texel(entry.corners[i], std::uint32_t(entry.firstMasked + i / 3)));
-    }
-    triangles_.write(texels, 3 * entry.firstTriangle);
+    // Only of triangles with holes it is asked where their texture coordinates are.
+    for (std::size_t i = 0; i < entry.corners.size() && entry.mask >= 0; ++i)
+        entry.corners[i].w = std::uint32_t(entry.firstMasked + i / 3);
+    triangles_.write(entry.corners, 3 * entry.firstTriangle);
 
     if (entry.mask >= 0) {
         texels.clear();
@@ -219,8 +222,11 @@ void CasterSoup::sendTop() {
     std::vector<TreeBox> roots;
     for (const Entry& entry : entries_) roots.push_back(entry.boxes.front());
     const TreeShape shape = buildTree(roots, 1);
-    const std::vector<TreeBox> boxes = refitTree(shape, roots);
-    std::vector<glm::uvec4> texels;
+    std::vector<TreeBox> boxes;
+    refitTree(
+        shape, [&](const TreeShape::Node& leaf) { return roots[shape.order[leaf.first]]; }, boxes);
+    std::vector<glm::uvec4>& texels = texels_;
+    texels.clear();
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         const TreeShape::Node& node = shape.nodes[i];
         texels.push_back(texel(boxes[i].min, node.skip == boxes.size() ? EXACT_END : node.skip));

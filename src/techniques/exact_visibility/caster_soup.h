@@ -70,15 +70,16 @@ class CasterSoup {
         AlphaMask holes;
 
         TreeShape shape;
-        std::vector<TreeBox> boxes;      ///< one a node
-        std::vector<glm::vec3> corners;  ///< three a triangle, in the order of the tree
+        std::vector<TreeBox> boxes;       ///< one a node
+        std::vector<glm::uvec4> corners;  ///< three a triangle, in the order of the tree: as shaders get them
         bool isSent = false;
         std::size_t firstNode = 0, firstTriangle = 0, firstMasked = 0;
 
         bool isStale(const Caster& caster) const;
         bool mayHaveOtherHoles(const Caster& caster) const;
         void take(const Caster& caster);
-        void place(const glm::dvec3& origin);
+        /// `posScene` is room for the positions.
+        void place(const glm::dvec3& origin, std::vector<glm::vec3>& posScene);
     };
 
     void noteChanged(const Entry& entry);
@@ -91,6 +92,9 @@ class CasterSoup {
     std::vector<glm::vec4> changed_;
     std::uint64_t revision_ = 1;
     glm::dvec3 originWorld_{0};
+    // Room that is kept, since getting it anew takes as long as filling it.
+    std::vector<glm::vec3> posScene_;
+    std::vector<glm::uvec4> texels_;
     gl::TexelBuffer nodes_, triangles_, masked_;
     std::size_t nodeCount_ = 0;
     std::size_t triangleCount_ = 0;

@@ -124,19 +124,4 @@ TreeShape buildTree(std::span<const TreeBox> boxes, std::uint32_t largestLeaf) {
     return Builder(boxes, largestLeaf).build();
 }
 
-std::vector<TreeBox> refitTree(const TreeShape& shape, std::span<const TreeBox> boxes) {
-    std::vector<TreeBox> result(shape.nodes.size());
-    // Children stand behind their parents.
-    for (std::size_t i = shape.nodes.size(); i-- > 0;) {
-        const TreeShape::Node& node = shape.nodes[i];
-        if (node.count > 0) {
-            for (std::uint32_t k = 0; k < node.count; ++k) result[i].add(boxes[shape.order[node.first + k]]);
-        } else {
-            result[i] = result[i + 1];
-            result[i].add(result[shape.nodes[i + 1].skip]);
-        }
-    }
-    return result;
-}
-
 }  // namespace penumbra::exact_visibility

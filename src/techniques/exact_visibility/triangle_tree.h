@@ -40,7 +40,20 @@ struct TreeShape {
 /// boxes where that is expected to be cheaper than splitting them.
 TreeShape buildTree(std::span<const TreeBox> boxes, std::uint32_t largestLeaf);
 
-/// The boxes of all nodes, from those of the leaves.
-std::vector<TreeBox> refitTree(const TreeShape& shape, std::span<const TreeBox> boxes);
+/// The boxes of all nodes; `boxOf` tells a leaf's.
+template <typename BoxOfLeaf>
+void refitTree(const TreeShape& shape, const BoxOfLeaf& boxOf, std::vector<TreeBox>& result) {
+    result.resize(shape.nodes.size());
+    // Children stand behind their parents.
+    for (std::size_t i = shape.nodes.size(); i-- > 0;) {
+        const TreeShape::Node& node = shape.nodes[i];
+        if (node.count > 0) {
+            result[i] = boxOf(node);
+        } else {
+            result[i] = result[i + 1];
+            result[i].add(result[shape.nodes[i + 1].skip]);
+        }
+    }
+}
 
 }  // namespace penumbra::exact_visibility
