@@ -32,9 +32,9 @@ class PENUMBRA_API Mesh {
   public:
     /// What a mesh is made of. The spans are copied.
     struct Source {
-        std::span<const Vec3> positions;         ///< mesh space, metres, all finite
-        std::span<const std::uint32_t> indices;  ///< three a triangle, counter-clockwise seen from its front
-        std::span<const Vec2> uvs;               ///< one a position, or empty; needed by an `AlphaMask` only
+        std::span<const Vec3> positions{};         ///< mesh space, metres, all finite
+        std::span<const std::uint32_t> indices{};  ///< three a triangle, counter-clockwise from its front
+        std::span<const Vec2> uvs{};  ///< one a position, or empty; needed by an `AlphaMask` only
     };
 
     /// Uploads `source`. Throws Error::Kind::badArgument if an index is out of range, a position is not
@@ -45,13 +45,13 @@ class PENUMBRA_API Mesh {
     /// A mesh that the host has on the device already.
     struct HostSource {
         enum class IndexType { uint16, uint32 };
-        HostVectors positions;              ///< three floats each, mesh space, metres, all finite
+        HostVectors positions{};            ///< three floats each, mesh space, metres, all finite
         std::size_t vertexCount = 0;        ///< of positions, and of uvs
         std::uint32_t indexBuffer = 0;      ///< three indices a triangle
         std::size_t indexOffset_bytes = 0;  ///< a multiple of an index's size
         std::size_t indexCount = 0;
         IndexType indexType = IndexType::uint32;
-        HostVectors uvs;  ///< two floats each; buffer 0: none
+        HostVectors uvs{};  ///< two floats each; buffer 0: none
     };
     /// Copies the mesh, on the device and, once, to the CPU, for which this waits; the host's buffers are not
     /// needed afterwards. Throws as the constructor does, and where a buffer is too small. What shaders have
@@ -115,8 +115,8 @@ struct Caster {
     const Mesh* mesh = nullptr;  ///< borrowed for the duration of a render call
     /// Affine: its last row is 0 0 0 1. Mirrored and non-uniform scales are legal; where a scale is 0, what
     /// is left of the mesh casts.
-    Mat4 worldFromMesh;
-    AlphaMask alphaMask;
+    Mat4 worldFromMesh{};
+    AlphaMask alphaMask{};
     bool casts = true;     ///< false: blocks no light
     bool receives = true;  ///< false: its pixels are not shadowed (see View::receiverTexture)
 };

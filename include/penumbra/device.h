@@ -39,11 +39,11 @@ enum class LogLevel { debug, info, warning, error };
 struct DeviceOptions {
     /// Called on the thread that calls the library, with messages of Penumbra and, where the host has set no
     /// KHR_debug callback of its own, of the driver. It must not throw. Without it nothing is logged.
-    std::function<void(LogLevel, std::string_view)> log;
+    std::function<void(LogLevel, std::string_view)> log{};
 
     /// Where to read shaders from instead of the embedded copies: the `src` folder of a source tree. Empty:
     /// embedded.
-    std::filesystem::path shaderSourceDirectory;
+    std::filesystem::path shaderSourceDirectory{};
 
     /// True: every call leaves the OpenGL state as it found it, which costs some hundred queries of state a
     /// call. False: nothing is put back, for hosts that set all their state for each pass anyway. Neither way

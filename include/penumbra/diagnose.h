@@ -14,7 +14,7 @@ struct Diagnosis {
     /// same one.
     double agreement = 0;
     /// What is likely wrong, and what to do: one sentence each, the likeliest first. Empty: nothing is.
-    std::vector<std::string> findings;
+    std::vector<std::string> findings{};
     bool fits() const { return findings.empty(); }
 };
 

@@ -25,7 +25,7 @@ struct AreaLight {
 
     /// Rotation and translation of the light; its columns must be orthonormal (sizes are given below, never
     /// by scale). The translation is ignored by distant lights.
-    Mat4 worldFromLight;
+    Mat4 worldFromLight{};
 
     float width_m = 0;    ///< rect, >= 0
     float height_m = 0;   ///< rect, >= 0

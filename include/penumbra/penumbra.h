@@ -2,6 +2,9 @@
 // Everything a host includes.
 #pragma once
 
+#if __cplusplus < 202002L
+#error "Penumbra needs C++20: -std=c++20, or penumbra::penumbra of its CMake package, which says so"
+#else
 #include "penumbra/caster.h"
 #include "penumbra/device.h"
 #include "penumbra/diagnose.h"
@@ -14,3 +17,4 @@
 #include "penumbra/technique.h"
 #include "penumbra/version.h"
 #include "penumbra/view.h"
+#endif

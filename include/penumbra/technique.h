@@ -66,9 +66,9 @@ class PENUMBRA_API VisibilityBuffer {
 };
 
 struct ShadowInputs {
-    View view;
-    AreaLight light;
-    std::span<const Caster> casters;
+    View view{};
+    AreaLight light{};
+    std::span<const Caster> casters{};
 };
 
 struct Statistic {
@@ -84,14 +84,14 @@ struct PassTime {
 };
 
 struct Statistics {
-    std::vector<Statistic> counts;
+    std::vector<Statistic> counts{};
 
     /// Which technique has answered, with which setting, where one (`auto`) takes another. Empty: itself.
     struct Chosen {
         std::string_view technique, parameter, value;
     };
     Chosen chosen = {};
-    std::vector<PassTime> passes;
+    std::vector<PassTime> passes{};
 };
 
 /// How an intermediate buffer is best shown.

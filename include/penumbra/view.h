@@ -42,16 +42,16 @@ struct View {
     /// Where in the pixel that sample lies, from the pixel's lower left corner, in [0, 1]. None: where OpenGL
     /// says of the texture. To be stated where the samples were copied out of a window's framebuffer, whose
     /// places Mesa mirrors: there it is (x, 1 - y) of what GL_SAMPLE_POSITION says of the texture.
-    std::optional<Vec2> samplePlace;
+    std::optional<Vec2> samplePlace{};
 
-    Mat4 viewFromWorld;  ///< rigid: rotation and translation only
-    Mat4 clipFromView;   ///< perspective or orthographic, finite or infinite; must be invertible
+    Mat4 viewFromWorld{};  ///< rigid: rotation and translation only
+    Mat4 clipFromView{};   ///< perspective or orthographic, finite or infinite; must be invertible
 
     /// GL_TEXTURE_2D or GL_TEXTURE_2D_MULTISAMPLE, borrowed, with a depth or depth-stencil format, or a float
     /// format whose red channel holds such depths. Its sampling parameters do not matter.
     std::uint32_t depthTexture = 0;
-    DepthConvention depth;
-    PolygonOffset polygonOffset;  ///< is taken out of the depths again
+    DepthConvention depth{};
+    PolygonOffset polygonOffset{};  ///< is taken out of the depths again
 
     /// As the depth texture, single- or multisampled, borrowed, optional (0: normals are derived from the
     /// depth). RGB is the *geometric* world-space normal of the surface, unit length, on the side that the
