@@ -155,9 +155,16 @@ TEST_F(CommandTest, WithABudgetThePictureIsTheSteadyStates) {
     EXPECT_NE(refused.err.find("no technique promises less than"), std::string::npos) << refused.err;
 }
 
-TEST_F(CommandTest, OneLightsVisibilityIsChannelV) {
+TEST_F(CommandTest, OneLightsVisibilityIsChannelVAndOneThatOtherProgramsShow) {
     ASSERT_EQ(run("render two-boxes -t hard --size 32x32 --visibility " + at("v.exr")).exitCode, 0);
-    EXPECT_EQ(readExr(at("v.exr")).channels.front().name, "V");
+    const ExrPicture seen = readExr(at("v.exr"));
+    EXPECT_EQ(seen.channels.size(), 2u);
+    EXPECT_EQ(imageOf(seen, "Y").values, imageOf(seen, "V").values);
+
+    ASSERT_EQ(run("render textured-window -t hard --size 32x32 --visibility " + at("c.exr")).exitCode, 0);
+    const ExrPicture coloured = readExr(at("c.exr"));
+    EXPECT_EQ(coloured.channels.size(), 6u);
+    EXPECT_EQ(imageOf(coloured, "").values, imageOf(coloured, "V").values);
 }
 
 TEST_F(CommandTest, ALightThatLightsNothingIsToldOf) {

@@ -112,12 +112,18 @@ void writePicture(const fs::path& path, const TechniqueResult& result, const Met
     }
 }
 
-/// Channel V for one light, LIGHT.V for several; V.R, V.G, V.B for a textured one.
+/// Channel V for one light, LIGHT.V for several; V.R, V.G, V.B for a textured one. That of one light also as Y, or R, G and B,
+/// which every program shows.
 void writeVisibility(const fs::path& path, const TechniqueResult& result, const Metadata& metadata) {
     ExrPicture picture{result.display.width_px, result.display.height_px, {}, metadata};
     for (const LightResult& light : result.lights) {
         const std::string name = result.lights.size() == 1 ? "V" : light.light + ".V";
         for (ExrChannel& channel : channelsOf(light.visibility, name))
+            picture.channels.push_back(std::move(channel));
+    }
+    if (result.lights.size() == 1) {
+        const Image& seen = result.lights.front().visibility;
+        for (ExrChannel& channel : channelsOf(seen, seen.channels == 1 ? "Y" : ""))
             picture.channels.push_back(std::move(channel));
     }
     if (picture.channels.empty()) {

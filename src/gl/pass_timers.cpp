@@ -50,7 +50,8 @@ void PassTimers::collect(Pass& pass) {
         if (!pair.pending || queryResult(pair.end.name(), GL_QUERY_RESULT_AVAILABLE) == 0) continue;
         const GLuint64 begin_ns = queryResult(pair.begin.name(), GL_QUERY_RESULT);
         const GLuint64 end_ns = queryResult(pair.end.name(), GL_QUERY_RESULT);
-        pass.milliseconds = double(end_ns - begin_ns) * 1e-6;
+        // llvmpipe may tell an end before the beginning.
+        pass.milliseconds = end_ns > begin_ns ? double(end_ns - begin_ns) * 1e-6 : 0;
         pair.pending = false;
     }
 }

@@ -39,6 +39,7 @@ Session::Session(const std::filesystem::path& shaderSourceDirectory)
       sides_(device_, frame_),
       canvas_(shaders_),
       inspection_(shaders_),
+      shaderSourceDirectory_(shaderSourceDirectory),
       picker_(device_, shaders_) {}
 
 void Session::open(const std::string& nameOrPath, const OpenOptions& options) {
@@ -173,6 +174,7 @@ bool Session::update(int width_px, int height_px) {
         takeTruth();
         const bool changed = canvasStale_;
         if (changed) {
+            isRefined_ = false;
             render(width_px, height_px);
             milliseconds_ = 1e3 * std::chrono::duration<double>(Clock::now() - start).count();
         }
@@ -192,6 +194,23 @@ bool Session::update(int width_px, int height_px) {
     }
 }
 
+bool Session::refine() {
+    const bool fits =
+        RefinedPicture::samplesPerAxis * std::max(width_px_, height_px_) <= device_.maxTextureSize_px();
+    if (canvasStale_ || !problem_.empty() || !fits || choices_.shown != Shown::picture || showsOther() ||
+        showsTruth(0))
+        return false;
+    try {
+        if (!refined_) refined_ = std::make_unique<RefinedPicture>(device_, shaderSourceDirectory_);
+        refined_->draw(*document_, camera(), width_px_, height_px_, techniquesOfLights(), techniques_,
+                       choices_.light, frame_.readExposureValue());
+        isRefined_ = true;
+    } catch (const std::exception& error) {
+        problem_ = error.what();
+    }
+    return isRefined_;
+}
+
 void Session::render(int width_px, int height_px) {
     if (viewStale_) sides_.draw(*document_, camera(), width_px, height_px);
     viewStale_ = false;
@@ -200,6 +219,12 @@ void Session::render(int width_px, int height_px) {
     glFinish();
     canvasStale_ = false;
     problem_.clear();
+}
+
+std::vector<std::string> Session::techniquesOfLights() const {
+    std::vector<std::string> names;
+    for (const Light& light : document_->moment().lights) names.push_back(techniqueOf(light));
+    return names;
 }
 
 void Session::lightSides() {
@@ -213,9 +238,7 @@ void Session::lightSides() {
         sideStale_[1] = false;
     }
     if (sideStale_[0]) {
-        std::vector<std::string> names;
-        for (const Light& light : lights) names.push_back(techniqueOf(light));
-        sides_.light(0, *document_, names, techniques_, truth_.get(), choices_.light);
+        sides_.light(0, *document_, techniquesOfLights(), techniques_, truth_.get(), choices_.light);
         sideStale_[0] = false;
     }
     if (judged) judge();
@@ -335,7 +358,9 @@ void Session::reloadShaders() {
     std::string failures;
     for (const std::function<void()>& reload :
          {std::function([&] { device_.reloadShaders(); }), std::function([&] { frame_.reloadShaders(); }),
-          std::function([&] { shaders_.reload(); })}) {
+          std::function([&] { shaders_.reload(); }), std::function([&] {
+              if (refined_) refined_->reloadShaders();
+          })}) {
         try {
             reload();
         } catch (const Error& error) {

@@ -14,6 +14,7 @@
 #include "studio/viewer/camera_control.h"
 #include "studio/viewer/canvas.h"
 #include "studio/viewer/picker.h"
+#include "studio/viewer/refined_picture.h"
 #include "studio/viewer/sides.h"
 #include "studio/workbench/workbench.h"
 
@@ -36,7 +37,7 @@ struct Choices {
     bool logarithmic = false, isolines = true;
     float resolutionScale = 1;
     std::optional<float> exposureValue;  ///< see FrameRenderer::setExposure; none: automatic
-    int sceneCamera = 0;  ///< of the moment's; -1: the free one
+    int sceneCamera = 0;                 ///< of the moment's; -1: the free one
 };
 
 /// What undo and redo bring back: what the user has done to lights and techniques.
@@ -103,6 +104,13 @@ class Session {
     /// was made anew. What a technique or the device throws becomes problem().
     bool update(int width_px, int height_px);
 
+    /// Draws the picture anew with four samples a pixel, until something changes. Not for two sides, nor for
+    /// numbers, nor for what rays are traced for: false.
+    bool refine();
+    bool isRefined() const { return isRefined_; }
+    /// The canvas, or the refined picture.
+    const gl::Texture& shown() const { return isRefined_ ? refined_->texture() : canvas_.texture(); }
+
     int width_px() const { return width_px_; }
     int height_px() const { return height_px_; }
     /// Milliseconds that the last update took that had something to do.
@@ -148,6 +156,7 @@ class Session {
     bool showsOther() const;
     bool showsTruth(std::size_t side) const;
     void render(int width_px, int height_px);
+    std::vector<std::string> techniquesOfLights() const;
     void lightSides();
     void startReference();
     void takeTruth();
@@ -160,6 +169,9 @@ class Session {
     TechniqueBank techniques_;
     Sides sides_;
     Canvas canvas_, inspection_;
+    std::filesystem::path shaderSourceDirectory_;
+    std::unique_ptr<RefinedPicture> refined_;  ///< made when it is first wanted
+    bool isRefined_ = false;
     Picker picker_;
     std::unique_ptr<Document> document_;
     ProgressiveReference reference_;

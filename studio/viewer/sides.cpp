@@ -13,6 +13,7 @@ void copy(const gl::Texture& from, gl::Texture& to, std::string_view label) {
         to = gl::Texture({.width_px = from.width_px(),
                           .height_px = from.height_px(),
                           .format = from.format(),
+                          .filter = gl::Filter::linear,
                           .label = label});
     }
     glCopyImageSubData(from.name(), GL_TEXTURE_2D, 0, 0, 0, 0, to.name(), GL_TEXTURE_2D, 0, 0, 0, 0,

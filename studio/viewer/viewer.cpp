@@ -342,7 +342,12 @@ void Viewer::updatePicture() {
     const float before = slowDown_;
     if (recorder_.active() || (!moving && now_s - movedAt_s_ > 0.25)) slowDown_ = 1;
     const bool drawn = drawPicture();
-    constexpr double smallest = 0.3;
+    constexpr double smallest = 0.3, settling_s = 0.5;
+    if (moving || drawn) drawnAt_s_ = now_s;
+    constexpr int samples = RefinedPicture::samplesPerAxis * RefinedPicture::samplesPerAxis;
+    if (!session_.isRefined() && now_s - drawnAt_s_ > settling_s &&
+        samples * session_.milliseconds() <= options_.refine_ms)
+        session_.refine();
     if (drawn) {
         frameTimes_ms_.push_back(float(session_.milliseconds()));
         if (frameTimes_ms_.size() > frameHistory) frameTimes_ms_.erase(frameTimes_ms_.begin());

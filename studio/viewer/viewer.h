@@ -28,7 +28,8 @@ struct ViewerOptions {
     bool keepsSettings = true;  ///< writes them when it ends
     std::filesystem::path data = dataFolder();
     std::filesystem::path pictures = std::filesystem::current_path();  ///< where pictures are saved
-    double late_ms = 120;  ///< a picture that takes longer while hands move is drawn with fewer pixels
+    double late_ms = 120;    ///< a picture that takes longer while hands move is drawn with fewer pixels
+    double refine_ms = 500;  ///< at rest pixels become the mean of four samples, where that takes no longer
 };
 
 class Viewer {
@@ -104,7 +105,7 @@ class Viewer {
     Requests keyRequests_;
     CanvasPlace place_;
     std::vector<float> frameTimes_ms_;  ///< of frames that had something to draw
-    double playedAt_s_ = 0, movedAt_s_ = -1;
+    double playedAt_s_ = 0, movedAt_s_ = -1, drawnAt_s_ = 0;
     float slowDown_ = 1;  ///< of the resolution while hands move and frames are late
 };
 

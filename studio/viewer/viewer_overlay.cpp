@@ -62,7 +62,7 @@ std::string titleOf(Shown shown, const std::string& light, const std::string& le
 }  // namespace
 
 void Viewer::drawCanvas() {
-    const gl::Texture& canvas = session_.canvas().texture();
+    const gl::Texture& canvas = session_.shown();
     if (canvas.name() == 0) return;
     ImGui::GetBackgroundDrawList()->AddImage(imageId(canvas), place_.min,
                                              {place_.min.x + place_.size.x, place_.min.y + place_.size.y},

@@ -54,7 +54,8 @@ ViewerOptions ViewerTest::options(const std::string& scene) const {
             .settings = at("viewer.json"),
             .data = at("data"),
             .pictures = folder_.path(),
-            .late_ms = std::numeric_limits<double>::infinity()};  // nothing hangs on the machine's speed
+            .late_ms = std::numeric_limits<double>::infinity(),  // nothing hangs on the machine's speed
+            .refine_ms = 0};
 }
 
 std::string ViewerTest::writeScene(const std::string& name) const {

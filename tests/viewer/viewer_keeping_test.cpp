@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 
+#include "studio/image/downsample.h"
 #include "studio/image/image_io.h"
 #include "tests/viewer/viewer_fixture.h"
 
@@ -74,6 +76,32 @@ TEST_F(ViewerTest, PicturesCarryWhatMadeThem) {
     const PngPicture shown = readPng(at("two-boxes.002.png"));
     EXPECT_TRUE(samePixels(shown.image, canvas()));
     EXPECT_EQ(shown.metadata.at("penumbra:shown"), "visibility");
+}
+
+TEST_F(ViewerTest, APictureAtRestIsRefined) {
+    start("two-boxes");
+    ViewerOptions patient = options("two-boxes");
+    patient.refine_ms = std::numeric_limits<double>::infinity();
+    viewer_.reset();
+    viewer_ = std::make_unique<Viewer>(patient);
+    frames(3);
+    const Image plain = canvas();
+    framesUntil([&] { return session().isRefined(); });
+    const gl::Texture& shown = session().shown();
+    ASSERT_EQ(shown.width_px(), 2 * session().width_px());
+    ASSERT_EQ(shown.height_px(), 2 * session().height_px());
+    const Image refined = downsampled(readTexture(shown.name(), shown.width_px(), shown.height_px(), 3), 2);
+    EXPECT_LT(shareOfDifferent(refined, plain, 0.1), 0.1) << "it is the same picture,";
+    EXPECT_GT(shareOfDifferent(refined, plain, 0.1), 0) << "with other edges";
+    EXPECT_TRUE(samePixels(canvas(), plain)) << "what is kept of it is what it was";
+
+    key("2");  // another technique
+    EXPECT_FALSE(session().isRefined());
+    framesUntil([&] { return session().isRefined(); });
+    key("c");  // two sides
+    frames(2);
+    EXPECT_FALSE(session().isRefined());
+    EXPECT_FALSE(session().refine());
 }
 
 TEST_F(ViewerTest, WhatIsKeptOfAReducedPictureIsNotReduced) {

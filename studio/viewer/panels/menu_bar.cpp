@@ -114,9 +114,9 @@ void drawMenuBar(Ui& ui, Session& session, const Settings& settings, WindowState
         if (ui.menuItem("Keys and mouse", "H")) windowState.showsHelp = true;
         ImGui::EndMenu();
     }
-    const std::string said =
-        fmt::format("{}   |   {}   |   {}x{}", session.document().nameOrPath(), session.choices().technique,
-                    session.width_px(), session.height_px());
+    const std::string said = fmt::format("{}   |   {}   |   {}x{}{}", session.document().nameOrPath(),
+                                         session.choices().technique, session.width_px(), session.height_px(),
+                                         session.isRefined() ? ", 4 samples a pixel" : "");
     ImGui::SameLine(ImGui::GetWindowWidth() - ImGui::CalcTextSize(said.c_str()).x - 12 * ui.scale());
     ImGui::TextDisabled("%s", said.c_str());
     ImGui::EndMainMenuBar();

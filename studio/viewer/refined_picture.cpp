@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "studio/viewer/refined_picture.h"
+
+namespace penumbra::studio::viewer {
+
+void RefinedPicture::draw(const Document& document, const Camera& camera, int width_px, int height_px,
+                          const std::vector<std::string>& names, TechniqueBank& techniques, std::size_t last,
+                          float exposureValue) {
+    frame_.setExposure(exposureValue);
+    sides_.draw(document, camera, samplesPerAxis * width_px, samplesPerAxis * height_px);
+    sides_.light(0, document, names, techniques, nullptr, last);
+}
+
+}  // namespace penumbra::studio::viewer

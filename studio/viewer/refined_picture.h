@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture of side A once more, for a view at rest: each pixel the mean of four samples of shading and
+// visibility.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "studio/viewer/sides.h"
+
+namespace penumbra::studio::viewer {
+
+class RefinedPicture {
+  public:
+    static constexpr int samplesPerAxis = 2;
+
+    /// `shaderSourceDirectory` as in DeviceOptions.
+    RefinedPicture(Device& device, const std::filesystem::path& shaderSourceDirectory)
+        : frame_(device, shaderSourceDirectory), sides_(device, frame_) {}
+
+    /// Draws it for a canvas of that size, with technique `names[i]` for light i, none of them the reference.
+    void draw(const Document& document, const Camera& camera, int width_px, int height_px,
+              const std::vector<std::string>& names, TechniqueBank& techniques, std::size_t last,
+              float exposureValue);
+
+    /// Two texels a pixel along each axis; shown with a linear filter they are averaged.
+    const gl::Texture& texture() const { return sides_.side(0).display; }
+
+    void reloadShaders() { frame_.reloadShaders(); }
+
+  private:
+    FrameRenderer frame_;
+    Sides sides_;
+};
+
+}  // namespace penumbra::studio::viewer
