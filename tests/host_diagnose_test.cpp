@@ -32,6 +32,42 @@ TEST_F(HostDepth, OfRightInputNothingIsDiagnosed) {
     }
 }
 
+// As OCCT draws: on faces that face the camera, too, and on triangles that are narrower than three pixels,
+// whose slopes their depths do not tell.
+TEST_F(HostDepth, OfStatedPolygonOffsetNothingIsDiagnosed) {
+    for (const char* scene : {"primitives", "two-boxes", "columns", "torus"}) {
+        const ShadowInputs inputs = drawScene(scene, size);
+        for (const DepthForm& form : {usual[0], usual[1], usual[2], usual[5], best}) {
+            const float away = form.convention.reversed ? -1 : 1;
+            for (const auto& [factor, units] : {std::pair{1.0f, 1.0f}, {2.0f, 8.0f}}) {
+                const PolygonOffset offset{away * factor, away * units};
+                View view = drawn(inputs, form, range, offset);
+                view.polygonOffset = offset;
+                const Diagnosis diagnosis = diagnose(device(), view, inputs.casters);
+                EXPECT_TRUE(diagnosis.fits())
+                    << scene << ", " << form.name << ", factor " << factor << ": " << joined(diagnosis);
+                EXPECT_GT(diagnosis.agreement, 0.98) << scene << ", " << form.name << ", factor " << factor;
+            }
+        }
+    }
+}
+
+TEST_F(HostDepth, OfTooFewSurfacesWithoutCastersNothingIsSaid) {
+    const ShadowInputs inputs = drawScene("two-boxes", size);
+    const View view = drawn(inputs, usual[1], range, {});
+    std::string said;
+    constexpr int width_px = 16, most_px = 40;
+    const std::vector<float> nearer(width_px, 0.5f);
+    for (int height_px = 0; height_px < most_px; ++height_px) {  // a block before the ground, row by row
+        glTextureSubImage2D(view.depthTexture, 0, 100, 5 + height_px, width_px, 1, GL_DEPTH_COMPONENT,
+                            GL_FLOAT, nearer.data());
+        const Diagnosis diagnosis = diagnose(device(), view, inputs.casters);
+        said = diagnosis.fits() ? "" : diagnosis.findings.front();
+        EXPECT_EQ(said.find("(0 %"), std::string::npos) << height_px << ": " << said;
+    }
+    EXPECT_NE(said.find("no caster accounts for (2 %"), std::string::npos) << said;
+}
+
 struct Inputs {
     View view;
     std::vector<Caster> casters;

@@ -23,8 +23,8 @@ constexpr double goodShare = 0.9;
 constexpr double goodCasterShare = 0.5;
 /// Pixels of which something can be said.
 constexpr std::size_t fewPixels = 16;
-/// The share of the picture from which surfaces are told that no caster accounts for.
-constexpr double noticedShare = 0.004;
+/// The share of surfaces from which it is told that no caster accounts for them; fewer would be called 0 %.
+constexpr double noticedShare = 0.005;
 /// From where an offset of depths is told, of a pixel's step, and a sample's place, in pixels.
 constexpr double noticedFactor = 0.004, noticedUnits = 24, noticedShift_px = 0.05;
 
@@ -200,7 +200,12 @@ Diagnosis diagnoseInScope(Device::Internals& device, const View& view, std::span
     View depthsAlone = view;
     depthsAlone.normalTexture = depthsAlone.shadingNormalTexture = depthsAlone.receiverTexture = 0;
     HostView hostView(device);
-    const View plain = hostView.prepare(depthsAlone, {});
+    // With the casters, as techniques see it: slopes that are guessed at, to take a polygon offset out, are
+    // too steep rather than too gentle, and what they lift too far would be surfaces of no caster.
+    View plain = hostView.prepare(depthsAlone, casters);
+    // Techniques take the nearest depth that may have become what is stored; here it is the likeliest.
+    for (std::size_t column = 0; column < 4; ++column)
+        plain.clipFromView.columns[column][2] = view.clipFromView.columns[column][2];
     return Search(device, view, plain, casters).run();
 }
 
