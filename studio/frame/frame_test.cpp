@@ -29,12 +29,19 @@ Scene whiteFloorUnder(const Light& light) {
     });
 }
 
-double centerRadiance_nits(const Scene& scene) {
+constexpr int pictureWidth_px = 33;
+
+Image smallPicture(const Scene& scene) {
     const std::unique_ptr<Technique> hard = TechniqueTest::workbench().makeTechnique("hard");
     const SceneMoment moment = scene.at(0);
     auto& workbench = TechniqueTest::workbench();
     workbench.open(scene);
-    return workbench.run("hard", *hard, moment, moment.cameras.front(), {33, 33}).radiance.at(16, 16, 1);
+    return workbench.run("hard", *hard, moment, moment.cameras.front(), {pictureWidth_px, pictureWidth_px})
+        .radiance;
+}
+
+double centerRadiance_nits(const Scene& scene) {
+    return smallPicture(scene).at(pictureWidth_px / 2, pictureWidth_px / 2, 1);
 }
 
 TEST_F(FrameTest, RadianceIsInNits) {
@@ -140,11 +147,11 @@ glm::dmat3 profileFromShape(const Light& light) {
     return glm::dmat3(turn) * glm::dmat3(light.profile->luminaireFromShape);
 }
 
-/// Lux on the floor's middle by summing over a fine grid of the light, in double precision.
-double summedLux(const Light& light) {
-    constexpr int n = 400;
+/// Lux on the floor, in its middle unless told, by summing over a fine grid of n x n points of the light, in
+/// double precision.
+double summedLux(const Light& light, const glm::dvec3& place = {0, 0, 0}, int n = 400) {
     const glm::dmat4 worldFromLight = fromPenumbra(light.shape.worldFromLight);
-    const glm::dvec3 pos(glm::inverse(worldFromLight) * glm::dvec4(0, 0, 0, 1));
+    const glm::dvec3 pos(glm::inverse(worldFromLight) * glm::dvec4(place, 1));
     const glm::dvec3 normal = glm::transpose(glm::dmat3(worldFromLight)) * glm::dvec3(0, 1, 0);
     const bool rect = light.shape.shape == LightShape::rect, sphere = light.shape.shape == LightShape::sphere;
     const glm::dvec2 half =
@@ -244,6 +251,42 @@ TEST_F(FrameTest, ProfilesShapeLightsOfAnyShape) {
                     EXPECT_NEAR(centerLux(light), right, 0.02 * right)
                         << int(shape.shape) << " " << isLuminaire << " " << height_m << " " << beside_m;
                 }
+}
+
+TEST_F(FrameTest, WhereCandelaFallOffSteeplyMorePointsOfALightAreSummed) {
+    constexpr int places = 50, pointsAlong = 150;
+    const float seen_m = 4;
+    std::mt19937 random(24);
+    std::uniform_int_distribution<int> anyPixel(0, pictureWidth_px - 1);
+    for (const double fall_deg : {5.0, 2.5})
+        for (const double height_m : {0.6, 1.0, 2.0}) {
+            Light light = profiledLight({.shape = LightShape::rect, .width_m = 0.6f, .height_m = 0.6f}, true,
+                                        height_m, 0);
+            LightProfile profile;
+            profile.grid = {.verticals_deg = {0, 40, 40 + fall_deg, 90},
+                            .horizontals_deg = {0},
+                            .candela = {1000, 1000, 0, 0}};
+            light.profile->profile = std::make_shared<LightProfile>(profile);
+            // Places that get less than a fiftieth of what the one straight below gets may be off by as much
+            // as if they got that.
+            const double least_lux = 0.02 * summedLux(light, {0, 0, 0}, pointsAlong);
+            const Scene scene = withMoment(whiteFloorUnder(light), [seen_m](SceneMoment& moment) {
+                moment.cameras.front().orthographicHeight_m = seen_m;
+            });
+            const glm::dmat4 worldFromCamera(scene.at(0).cameras.front().worldFromCamera);
+            const Image radiance = smallPicture(scene);
+            for (int i = 0; i < places; ++i) {
+                const glm::ivec2 pixel(anyPixel(random), anyPixel(random));
+                const glm::dvec2 aside_m =
+                    ((glm::dvec2(pixel) + 0.5) / double(pictureWidth_px) - 0.5) * double(seen_m);
+                glm::dvec3 place(worldFromCamera * glm::dvec4(aside_m.x, -aside_m.y, 0, 1));  // rows go down
+                place.y = 0;
+                const double right = summedLux(light, place, pointsAlong);
+                EXPECT_NEAR(glm::pi<double>() * double(radiance.at(pixel.x, pixel.y, 1)), right,
+                            0.02 * std::max(right, least_lux))
+                    << fall_deg << " degrees, from " << height_m << " m at " << place.x << ", " << place.z;
+            }
+        }
 }
 
 TEST_F(FrameTest, UprightTubesAndStandingPanelsShineAboutTheLuminairesAxis) {

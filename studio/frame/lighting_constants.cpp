@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/frame/lighting_constants.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "penumbra/light_plane.h"
@@ -46,6 +47,7 @@ ProfileConstants profileConstants(const Light& light) {
         .factor = light.profile->factor * light.profile->tilt,
         .isMirrored = grid.horizontals_deg.front() == 0,
         .isLuminaire = light.profile->isLuminaire,
+        .pointsPerDistance = std::max(leastPointsPerDistance, float(1 / widestPart_rad(*light.profile))),
     };
 }
 

@@ -22,8 +22,9 @@ layout(rgba32f) uniform writeonly image2D measured;  // lux, its bound, the shar
 vec3 texturedIrradiance(vec3 pos, vec3 normal) {
     const int most = 32;
     float distance_m = length(vec3(max(abs(pos.xy) - light.halfSize_m, 0.0), pos.z));
-    ivec2 parts = min(2 * ivec2(pointsAlong(2.0 * light.halfSize_m.x, distance_m),
-                                pointsAlong(2.0 * light.halfSize_m.y, distance_m)), most);
+    vec2 size_m = 2.0 * light.halfSize_m;
+    ivec2 parts = min(2 * ivec2(pointsAlong(size_m.x, distance_m, leastPointsPerDistance),
+                                pointsAlong(size_m.y, distance_m, leastPointsPerDistance)), most);
     vec2 texels = vec2(textureSize(radianceTexture, 0)) / vec2(parts);
     float level = max(log2(max(texels.x, texels.y)), 0.0);
     vec3 sum = vec3(0.0);

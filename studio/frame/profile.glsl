@@ -2,11 +2,12 @@
 // Candela of a profile by direction, as CandelaGrid::at has them: linear between the file's own angles. Includers have
 // declared the buffer `Profile` of floats, `profileValues`.
 
+const int mostSteps = 12;  // to find an angle among 2^12
+
 // The angles [first, first + count) of the buffer increase; the index of the last that is not above `angle`, but for
 // the very last.
 int lastNotAbove(int first, int count, float angle) {
     int low = 0, high = count - 1;
-    const int mostSteps = 12;  // 2^12 angles
     for (int step = 0; step < mostSteps && high - low > 1; ++step) {
         int middle = (low + high) / 2;
         if (profileValues[first + middle] <= angle) low = middle;
@@ -70,10 +71,17 @@ float profileCandela(ProfileConstants profile, vec3 directionLight) {
 
 // How many points to take along an extent that is so far away: so dense that summing at their middles is within a few
 // thousandths of the integral, also close by.
-int pointsAlong(float extent_m, float distance_m) {
-    const float pointsPerDistance = 10.0;
-    const int fewest = 2, most = 24;
-    return int(clamp(ceil(pointsPerDistance * extent_m / max(distance_m, 1e-6)), float(fewest), float(most)));
+int pointsAlong(float extent_m, float distance_m, float pointsPerDistance) {
+    const float fewest = 2.0, mostUnlessSteep = 24.0;
+    // Mesa ends all of a shader's loops after 65,535 turns, of which each of most^2 points takes 1 + 2 mostSteps.
+    const float mostOfAll = 48.0;
+    float most = min(mostUnlessSteep * pointsPerDistance / leastPointsPerDistance, mostOfAll);
+    return int(clamp(ceil(pointsPerDistance * extent_m / max(distance_m, 1e-6)), fewest, most));
+}
+
+// The same of a profile, also where its candela fall off steeply.
+int pointsAlong(ProfileConstants profile, float extent_m, float distance_m) {
+    return pointsAlong(extent_m, distance_m, profile.pointsPerDistance);
 }
 
 // What one point of a light sends to the receiver: of a luminaire, candela by cos / d^2; else the same times the cosine
@@ -91,7 +99,8 @@ float fromPoint(ProfileConstants profile, vec3 pos, vec3 normal, vec3 point, boo
 // Means over the light of fromPoint; irradiance for an emission of 1.
 float profiledRect(ProfileConstants profile, vec3 pos, vec3 normal, vec2 halfSize_m) {
     float distance_m = length(vec3(max(abs(pos.xy) - halfSize_m, 0.0), pos.z));
-    ivec2 points = ivec2(pointsAlong(2.0 * halfSize_m.x, distance_m), pointsAlong(2.0 * halfSize_m.y, distance_m));
+    ivec2 points = ivec2(pointsAlong(profile, 2.0 * halfSize_m.x, distance_m),
+                         pointsAlong(profile, 2.0 * halfSize_m.y, distance_m));
     float sum = 0.0;
     for (int y = 0; y < points.y; ++y) {
         for (int x = 0; x < points.x; ++x) {
@@ -106,7 +115,7 @@ float profiledRect(ProfileConstants profile, vec3 pos, vec3 normal, vec2 halfSiz
 // Over rings of equal area of a disk of any orientation around the origin.
 float profiledDisk(ProfileConstants profile, vec3 pos, vec3 normal, float radius_m, float distance_m, vec3 x, vec3 y,
                    bool hasCosine) {
-    int points = pointsAlong(2.0 * radius_m, distance_m);
+    int points = pointsAlong(profile, 2.0 * radius_m, distance_m);
     int rings = (points + 1) / 2, sectors = 2 * points;
     float sum = 0.0;
     for (int ring = 0; ring < rings; ++ring) {
@@ -126,7 +135,8 @@ float profiledTube(ProfileConstants profile, vec3 pos, vec3 normal, float halfLe
     SeenTube seen = seeTube(pos, radius_m);
     if (seen.away <= radius_m) return 0.0;
     float distance_m = length(vec2(max(abs(pos.x) - halfLength_m, 0.0), seen.away - radius_m));
-    ivec2 points = ivec2(pointsAlong(2.0 * halfLength_m, distance_m), pointsAlong(2.0 * radius_m, distance_m));
+    ivec2 points = ivec2(pointsAlong(profile, 2.0 * halfLength_m, distance_m),
+                         pointsAlong(profile, 2.0 * radius_m, distance_m));
     float along2 = seen.away * seen.plane, beyond = (seen.away - radius_m) * (seen.away + radius_m);
     float sum = 0.0;
     for (int y = 0; y < points.y; ++y) {

@@ -6,26 +6,12 @@
 #include <limits>
 
 #include "studio/frame/conversions.h"
-#include "studio/scene/profiles/light_profile.h"
+#include "studio/scene/profiles/luminaire.h"
 
 namespace penumbra::studio {
 namespace {
 
 constexpr int mostPartsAlong = 8;
-
-/// How wide a part may look: over it candela change by a fifth of their largest, where they change the most.
-double widestPart_rad(const CandelaGrid& grid) {
-    constexpr double change = 0.2, narrowest_deg = 1.5, widest_deg = 10;
-    double steepest = 0;  // candela a degree
-    const std::size_t verticals = grid.verticals_deg.size();
-    for (std::size_t i = 0; i + 1 < grid.candela.size(); ++i) {
-        if (i % verticals + 1 == verticals) continue;  // the next is another plane's first
-        const double step_deg = grid.verticals_deg[i % verticals + 1] - grid.verticals_deg[i % verticals];
-        steepest = std::max(steepest, std::abs(double(grid.candela[i + 1] - grid.candela[i])) / step_deg);
-    }
-    if (!(steepest > 0)) return glm::radians(widest_deg);
-    return glm::radians(std::clamp(change * double(grid.largest()) / steepest, narrowest_deg, widest_deg));
-}
 
 /// From a rectangle, in metres.
 double distanceOf(const glm::dvec3& posLight, const glm::dvec2& halfSize_m) {
@@ -46,7 +32,7 @@ std::vector<Light> partsOf(const Light& light, const std::vector<MeasuringPoint>
         const glm::dvec3 posLight(lightFromWorld * glm::dvec4(point.posWorld, 1));
         nearest_m = std::min(nearest_m, distanceOf(posLight, 0.5 * size_m));
     }
-    const double widest_rad = widestPart_rad(light.profile->profile->grid);
+    const double widest_rad = widestPart_rad(*light.profile);
     const glm::dvec2 wanted = size_m / std::max(nearest_m * widest_rad, 1e-9);
     const glm::ivec2 counts(std::clamp(int(std::ceil(std::min(wanted.x, 1e6))), 1, mostPartsAlong),
                             std::clamp(int(std::ceil(std::min(wanted.y, 1e6))), 1, mostPartsAlong));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/scene/profiles/luminaire.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
@@ -44,6 +45,22 @@ glm::vec3 towardsC0(const ProfiledEmission& profile) {
 
 glm::vec3 towardsZenith(const ProfiledEmission& profile) {
     return glm::transpose(profile.luminaireFromShape) * glm::vec3(0, 0, 1);
+}
+
+double widestPart_rad(const ProfiledEmission& profile) {
+    constexpr double change = 0.2, narrowest_deg = 1, widest_deg = 10;
+    const CandelaGrid& grid = profile.profile->grid;
+    double steepest = 0;  // candela a degree
+    const std::size_t verticals = grid.verticals_deg.size();
+    for (std::size_t i = 0; i + 1 < grid.candela.size(); ++i) {
+        if (i % verticals + 1 == verticals) continue;  // the next is another plane's first
+        const double step_deg = grid.verticals_deg[i % verticals + 1] - grid.verticals_deg[i % verticals];
+        steepest = std::max(steepest, std::abs(double(grid.candela[i + 1] - grid.candela[i])) / step_deg);
+    }
+    if (!(steepest > 0)) return glm::radians(widest_deg);
+    const double stretched = profile.angleScale != 0 ? std::abs(double(profile.angleScale)) : 1;
+    return glm::radians(
+        std::clamp(stretched * change * double(grid.largest()) / steepest, narrowest_deg, widest_deg));
 }
 
 }  // namespace penumbra::studio

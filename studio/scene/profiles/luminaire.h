@@ -27,4 +27,8 @@ glm::vec3 towardsC0(const ProfiledEmission& profile);
 /// The same of the profile's zenith, gamma = 180.
 glm::vec3 towardsZenith(const ProfiledEmission& profile);
 
+/// How wide a part of a light may look for its middle to stand for all of it: over it candela change by a
+/// fifth of their largest, where they change the most with the vertical angle. 1 to 10 degrees.
+double widestPart_rad(const ProfiledEmission& profile);
+
 }  // namespace penumbra::studio
