@@ -173,6 +173,11 @@ void Viewer::loadProfile(const std::string& file) {
         std::vector<Light> lights = session_.document().moment().lights;
         const std::size_t chosen = session_.choices().light;
         if (chosen >= lights.size()) throw InputError("there is no light to be that luminaire: add one");
+        if (lights[chosen].shape.shape == LightShape::distant)
+            throw InputError(
+                fmt::format("'{}' is a distant light, which is no luminaire: choose another shape or "
+                            "light, then load {}",
+                            lights[chosen].name, file));
         const std::string note = makeLuminaire(std::make_shared<const LightProfile>(readProfile(file)), 0,
                                                glm::vec3(1), lights[chosen]);
         session_.editLights(std::move(lights));

@@ -21,6 +21,15 @@ glm::vec3 placeOfLight(const Session& session, std::size_t index = 0) {
     return glm::vec3(std::bit_cast<glm::mat4>(light.shape.worldFromLight)[3]);
 }
 
+/// A file dropped onto the window.
+void drop(Viewer& viewer, const std::string& file) {
+    const char* path = file.c_str();
+    GLFWwindow* window = viewer.window().handle();
+    const GLFWdropfun callback = glfwSetDropCallback(window, nullptr);
+    glfwSetDropCallback(window, callback);
+    callback(window, 1, &path);
+}
+
 TEST_F(ViewerTest, LightsAreAddedEditedAndSaved) {
     start(writeScene("box.gltf"));
     const std::size_t before = session().document().moment().lights.size();
@@ -277,11 +286,7 @@ TEST_F(ViewerTest, AMakersFileMakesALightThatLuminaireWhereItIs) {
     writeFileAtomically(file,
                         "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 1 1 2 1.2 -0.04 -0.04\n1 1 10\n0 90 180\n0\n"
                         "500 300 20\n");
-    const char* paths[] = {file.c_str()};
-    GLFWwindow* window = viewer().window().handle();
-    const GLFWdropfun drop = glfwSetDropCallback(window, nullptr);
-    glfwSetDropCallback(window, drop);
-    drop(window, 1, paths);
+    drop(viewer(), file);
     frames();
     const auto light = [&]() -> const Light& { return session().document().moment().lights.at(0); };
     ASSERT_TRUE(light().profile) << viewer().windowState().message;
@@ -329,14 +334,32 @@ TEST_F(ViewerTest, AMakersFileMakesALightThatLuminaireWhereItIs) {
     viewer_.reset();
     start(at("box.gltf"));
     const Work saved = session().work();
-    GLFWwindow* again = viewer().window().handle();
-    const GLFWdropfun dropAgain = glfwSetDropCallback(again, nullptr);
-    glfwSetDropCallback(again, dropAgain);
-    dropAgain(again, 1, paths);
+    drop(viewer(), file);
     frames();
     EXPECT_EQ(session().work(), saved) << "a file that cannot be read changes nothing";
     EXPECT_TRUE(viewer().windowState().messageIsError);
     EXPECT_NE(viewer().windowState().message.find("tube.ies:"), std::string::npos)
+        << viewer().windowState().message;
+}
+
+TEST_F(ViewerTest, ADistantLightIsMadeNoLuminaire) {
+    start(writeScene("box.gltf"));
+    session().editLights({rectLight("lamp", 0.2f, 0.2f, {0.1f, 1.5f, 0.2f}, {0.1f, 0, 0.2f}, 100)});
+    frames();
+    EXPECT_TRUE(widget("Load"));
+    session().editLights({distantLight("sun", 0.01f, {0, -1, 0}, 1)});
+    frames();
+    EXPECT_FALSE(widget("Load"));
+
+    const Work before = session().work();
+    const std::string file = at("lamp.ies");
+    writeFileAtomically(file,
+                        "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 10\n0 180\n0\n100 100\n");
+    drop(viewer(), file);
+    frames();
+    EXPECT_EQ(session().work(), before);
+    EXPECT_TRUE(viewer().windowState().messageIsError);
+    EXPECT_NE(viewer().windowState().message.find("'sun' is a distant light"), std::string::npos)
         << viewer().windowState().message;
 }
 

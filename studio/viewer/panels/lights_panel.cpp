@@ -101,6 +101,7 @@ bool editLight(Ui& ui, Light& light, Requests& requests) {
 
 /// What the light is by its maker's file, and a file to make it so.
 bool editProfile(Ui& ui, Light& light, WindowState& windowState, Requests& requests) {
+    if (light.shape.shape == LightShape::distant) return false;  // no luminaire is
     bool changed = false;
     if (light.profile) {
         ui.note(light.profile->profile->fileName);
