@@ -49,8 +49,8 @@ class Installed : public ::testing::Test {
     }
     static bool buildProject(const std::string& project, const std::string& name,
                              const std::string& more = {}) {
-        return run("cmake -S " + project + " -B " + at(name) + " -DCMAKE_PREFIX_PATH=" + prefix() + " " +
-                   more) &&
+        return run("cmake -S " + project + " -B " + at(name) + " -DCMAKE_PREFIX_PATH=" + prefix() +
+                   " -DCMAKE_CXX_FLAGS='-Wall -Wextra -Werror' " + more) &&
                run("cmake --build " + at(name));
     }
 

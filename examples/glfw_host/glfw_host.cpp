@@ -12,7 +12,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <iostream>
@@ -85,9 +84,7 @@ GLuint link(std::initializer_list<std::pair<GLenum, const char*>> stages) {
 }
 
 penumbra::Mat4 toPenumbra(const glm::mat4& matrix) {
-    penumbra::Mat4 result;
-    std::memcpy(&result, &matrix, sizeof result);
-    return result;
+    return penumbra::Mat4::fromColumns(&matrix[0][0]);
 }
 
 struct HostMesh {

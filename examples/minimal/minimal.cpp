@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <iostream>
 #include <vector>
@@ -30,9 +29,7 @@ bool makeContextCurrent() {
 }
 
 penumbra::Mat4 toPenumbra(const glm::mat4& matrix) {
-    penumbra::Mat4 result;
-    std::memcpy(&result, &matrix, sizeof result);
-    return result;
+    return penumbra::Mat4::fromColumns(&matrix[0][0]);
 }
 
 /// What the host has already: a program that draws its meshes' depth.
