@@ -64,7 +64,9 @@ class Values(unittest.TestCase):
                                    "--visibility", str(path))
                     self.assertEqual(done.returncode, 0, done.stderr)
                     frame = renderer.render(penumbra.open_scene(scene), technique, {name: value}, size=SIZE)
-                    theirs, ours = exr.read(path), channels_of(frame)
+                    shown_elsewhere = {"Y", "R", "G", "B"}  # by other programs: the same once more
+                    theirs = {name: values for name, values in exr.read(path).items() if name not in shown_elsewhere}
+                    ours = channels_of(frame)
                     self.assertEqual(set(theirs), set(ours))
                     for channel, values in ours.items():
                         np.testing.assert_array_equal(values.view(np.uint32), theirs[channel].view(np.uint32))
