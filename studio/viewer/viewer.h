@@ -28,8 +28,8 @@ struct ViewerOptions {
     bool keepsSettings = true;  ///< writes them when it ends
     std::filesystem::path data = dataFolder();
     std::filesystem::path pictures = std::filesystem::current_path();  ///< where pictures are saved
-    double late_ms = 120;    ///< a picture that takes longer while hands move is drawn with fewer pixels
-    double refine_ms = 500;  ///< at rest pixels become the mean of four samples, where that takes no longer
+    double late_ms = 120;     ///< a picture that takes longer while hands move is drawn with fewer pixels
+    double refine_ms = 1500;  ///< at rest pixels become the mean of four samples, where that takes no longer
 };
 
 class Viewer {
