@@ -8,7 +8,7 @@ layout(local_size_x = 32) in;
 #include "src/techniques/exact_visibility/light.glsl"
 #include "src/techniques/exact_visibility/tree.glsl"
 #include "src/techniques/exact_visibility/underfoot.glsl"
-#include "src/techniques/exact_visibility/tiles.glsl"
+#include "src/techniques/exact_visibility/exact_io.h"
 
 layout(std430) writeonly buffer Candidates { uint candidates[]; };  // light.tileCapacity a tile
 layout(std430) writeonly buffer TileLists { TileList tileLists[]; };

@@ -12,7 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "src/techniques/common/view.glsl"
 #include "src/techniques/exact_visibility/light.glsl"
 #include "src/techniques/exact_visibility/tree.glsl"
-#include "src/techniques/exact_visibility/tiles.glsl"
+#include "src/techniques/exact_visibility/exact_io.h"
 #include "src/techniques/exact_visibility/underfoot.glsl"
 #include "src/techniques/exact_visibility/coverage.glsl"
 #ifdef WITH_HOLES
