@@ -12,6 +12,7 @@
 #include "studio/measure/instance_triangles.h"
 #include "studio/measure/point_set.h"
 #include "studio/scene/lights/nearest_name.h"
+#include "studio/scene/wildcard.h"
 
 namespace penumbra::studio {
 namespace {
@@ -59,14 +60,14 @@ void requireInScene(const GridFrame& frame, const Scene& scene, const SceneMomen
 
 using Triangle = std::array<glm::dvec3, 3>;
 
-/// Throws InputError with the names that are near.
+/// Of all nodes of the name, or pattern (`*`, `?`). Throws InputError with the names that are near.
 std::vector<Triangle> trianglesOf(const std::string& node, const Scene& scene, const SceneMoment& moment) {
     std::vector<Triangle> triangles;
     std::set<std::string_view> names;
     for (const Instance& instance : moment.instances) {
         const std::string& name = scene.nodeNames[std::size_t(instance.node)];
         names.insert(name);
-        if (name != node) continue;
+        if (!matchesWildcard(name, node)) continue;
         forEachTriangle(scene, instance, [&](const Triangle& triangle) { triangles.push_back(triangle); });
     }
     if (!triangles.empty()) return triangles;

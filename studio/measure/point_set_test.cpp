@@ -129,6 +129,14 @@ TEST(SurfaceGrid, LiesOnTheSideThatHasTheLights) {
     EXPECT_NEAR(set.points[0].posWorld.z, -0.25, 1e-6);
 }
 
+TEST(SurfaceGrid, TakesPatternsOfNames) {
+    const Scene scene = tableAndBall();
+    const PointSet named = surfaceGrid("desk", 4, 2, scene, scene.at(0)),
+                   fitting = surfaceGrid("de?k*", 4, 2, scene, scene.at(0));
+    ASSERT_EQ(fitting.points.size(), named.points.size());
+    EXPECT_EQ(fitting.points[0].posWorld, named.points[0].posWorld);
+}
+
 TEST(SurfaceGrid, FollowsRoundThingsAndTellsWhatLiesBeside) {
     const Scene scene = tableAndBall();
     const PointSet set = surfaceGrid("ball", 20, 20, scene, scene.at(0));

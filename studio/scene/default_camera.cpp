@@ -20,8 +20,8 @@ constexpr int headings = 16, elevations = 5;
 // A look around of 80 rays from five places costs some 0.4 s with this many triangles.
 constexpr std::size_t maxTriangles = 200'000;
 constexpr float eyeHeight_m = 1.6f;
-constexpr float mostOfARoom =
-    0.6f;  ///< of its height, for the eye in a room that is lower, or not of this world
+constexpr float mostOfARoom = 0.6f;     ///< of its height, for the eye in a room that is lower
+constexpr float leastRoom_m = 1.8f;     ///< what is lower holds no person: a vessel, a pipe, a housing
 constexpr float closedShare = 0.9f;     ///< of the rays that meet the front of a surface
 constexpr float backedUpShare = 0.85f;  ///< of the way to the wall behind
 constexpr float insideFov_rad = 1.1f;
@@ -52,6 +52,7 @@ std::optional<View> lookAround(Triangles triangles, const glm::vec3& place) {
                  ceiling = nearestHit(triangles, place, {0, 1, 0});
     if (!floor.isFront || !ceiling.isFront) return std::nullopt;
     const float height_m = floor.distance_m + ceiling.distance_m;
+    if (height_m < leastRoom_m) return std::nullopt;
     const glm::vec3 eye =
         place + glm::vec3(0, std::min(eyeHeight_m, mostOfARoom * height_m) - floor.distance_m, 0);
 

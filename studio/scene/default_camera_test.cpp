@@ -50,10 +50,13 @@ TEST(DefaultCamera, StandsInARoomAndLooksAlongIt) {
 }
 
 TEST(DefaultCamera, StaysOutOfThings) {
-    const Scene scene = boxScene({4, 2.5f, 9}, false);
-    const SceneMoment moment = momentOf(scene);
-    const glm::vec3 eye(defaultCamera(scene, moment, moment.bounds).worldFromCamera[3]);
-    EXPECT_TRUE(glm::any(glm::greaterThan(eye, moment.bounds.max)));
+    const auto isOutside = [](const Scene& scene) {
+        const SceneMoment moment = momentOf(scene);
+        const glm::vec3 eye(defaultCamera(scene, moment, moment.bounds).worldFromCamera[3]);
+        return glm::any(glm::greaterThan(eye, moment.bounds.max));
+    };
+    EXPECT_TRUE(isOutside(boxScene({4, 2.5f, 9}, false))) << "closed";
+    EXPECT_TRUE(isOutside(boxScene({1.3f, 0.13f, 0.14f}, true))) << "hollow, but nothing to stand in";
 }
 
 TEST(Hints, DoubtUnitsAndAxes) {

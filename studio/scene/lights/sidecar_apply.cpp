@@ -137,8 +137,11 @@ class NameIndex {
         return all;
     }
 
+    /// The only one of the name or pattern.
     int one(const std::string& name, int line) const {
-        const std::vector<int>& named = all(name, line);
+        const std::vector<int> named = matching(name, line);
+        if (named.empty())
+            throw InputError(fmt::format("{}:{}: no {} is named '{}'", fileName_, line, kind_, name));
         if (named.size() > 1)
             throw InputError(
                 fmt::format("{}:{}: the scene has {} {}s named '{}'; a light can hang on one only", fileName_,

@@ -3,6 +3,7 @@
 #include "studio/scene/builtin/builtin.h"
 #include "studio/scene/lights/sidecar.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -166,6 +167,22 @@ TEST(SidecarOnAScene, UnknownAndAmbiguousNodes) {
     EXPECT_EQ(applyErrorOf(hung, scene),
               "chair.lights.json:2: the scene has 2 nodes named 'Lamp'; a light can hang on one only");
     EXPECT_EQ(applyErrorOf("{\"version\": 1, \"nodes\": {\"Lamp\": {\"casts\": false}}}", scene), "no error");
+}
+
+TEST(SidecarOnAScene, ALightHangsOnTheOneNodeThatAPatternFits) {
+    const auto hung = [](std::string_view pattern, std::vector<std::string> names) {
+        Scene scene = twoNodes();
+        scene.nodeNames = std::move(names);
+        return applyErrorOf(
+            fmt::format(R"({{"version": 1, "lights": [{{"name": "a", "type": "DiskLight", "node": "{}"}}]}})",
+                        pattern),
+            scene);
+    };
+    EXPECT_EQ(hung("IfcLamp*", {"IfcLamp_desk_0Kx1", "IfcWall_0Kx2"}), "no error");
+    EXPECT_EQ(hung("Ifc*", {"IfcLamp_desk_0Kx1", "IfcWall_0Kx2"}),
+              "chair.lights.json:1: the scene has 2 nodes named 'Ifc*'; a light can hang on one only");
+    EXPECT_EQ(hung("IfcDoor*", {"IfcLamp_desk_0Kx1", "IfcWall_0Kx2"}),
+              "chair.lights.json:1: no node is named 'IfcDoor*'");
 }
 
 class SidecarTextures : public testing::Test {
