@@ -3,10 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <iostream>
-#include <limits>
 
 #include "apps/penumbra/arguments.h"
 #include "apps/penumbra/commands.h"
@@ -14,7 +11,7 @@
 #include "studio/errors.h"
 #include "studio/image/atomic_file.h"
 #include "studio/measure/measured_files.h"
-#include "studio/measure/plan.h"
+#include "studio/measure/plan_of.h"
 #include "studio/workbench/parameter_list.h"
 #include "studio/workbench/progress.h"
 
@@ -22,31 +19,6 @@ namespace penumbra::studio {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What is set where nothing else is asked for: lux are of irradiance, and points are few.
-void setForMeasuring(Technique& technique) {
-    constexpr double samples = 1024;
-    for (const ParameterDescription& parameter : describeParameters(technique)) {
-        if (parameter.name == "weight" && std::ranges::count(parameter.choices, "irradiance") > 0)
-            setParameter(technique, parameter.name, "irradiance");
-        if (parameter.name == "samples" && parameter.min <= samples && samples <= parameter.max)
-            setParameter(technique, parameter.name, fmt::format("{}", samples));
-    }
-}
-
-ValueGrid gridOf(const Measurement& measurement, const std::function<double(std::size_t)>& valueOf) {
-    const GridFrame& frame = *measurement.set.grid;
-    ValueGrid grid{.columns = frame.columns, .rows = frame.rows, .values = {}};
-    grid.values.resize(std::size_t(frame.columns) * std::size_t(frame.rows),
-                       std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t i = 0; i < measurement.set.points.size(); ++i) {
-        const MeasuringPoint& point = measurement.set.points[i];
-        if (!measurement.counts(i)) continue;
-        grid.values[std::size_t(point.row) * std::size_t(frame.columns) + std::size_t(point.column)] =
-            valueOf(i);
-    }
-    return grid;
-}
 
 class MeasureCommand {
   public:
@@ -138,38 +110,15 @@ class MeasureCommand {
     void write(const Measurement& measurement, const Scene& scene, const SceneMoment& moment) const {
         if (!arguments_.csv.empty()) writeFileAtomically(arguments_.csv, toCsv(measurement, scene));
         if (!arguments_.plan.empty())
-            writePlan(arguments_.plan, planOf(measurement, scene, moment), metadata_);
+            writePlan(arguments_.plan,
+                      planOf(measurement, scene, moment, arguments_.scene.scene,
+                             arguments_.scene.sun.place.value_or("")),
+                      metadata_);
         if (arguments_.json) {
             printJson(std::cout, measurement, scene, {arguments_.scene.scene, arguments_.technique});
         } else {
             printTable(std::cout, measurement, scene);
         }
-    }
-
-    Plan planOf(const Measurement& measurement, const Scene& scene, const SceneMoment& moment) const {
-        const bool isDay = !measurement.times.empty();
-        const GridFrame& frame = *measurement.set.grid;
-        // What goes up on paper: right is across, and one looks against the normal.
-        const glm::dvec3 up = glm::cross(frame.normalWorld, frame.acrossWorld);
-        constexpr double margin = 0.1;
-        Plan plan{
-            .frame = frame,
-            .values = gridOf(measurement,
-                             [&](std::size_t i) {
-                                 return double(isDay ? measurement.sunHours[i] : measurement.values[i].lux);
-                             }),
-            .unit = isDay ? "h" : "lx",
-            .title = fmt::format("{}, {}", fs::path(arguments_.scene.scene).filename().string(),
-                                 isDay ? "hours of direct sun" : "direct illuminance"),
-            .notes = {summaryText(measurement)},
-            .lines = planLinesOf(scene, moment, frame, margin * std::max(frame.width_m, frame.depth_m)),
-            .isAlongDown = glm::dot(up, frame.alongWorld) < 0};
-        if (isDay) {
-            plan.notes = {sunText(measurement),
-                          fmt::format("{} to {}, {}", measurement.times.front().moment.clock,
-                                      measurement.times.back().moment.clock, *arguments_.scene.sun.place)};
-        }
-        return plan;
     }
 
     const MeasureArguments& arguments_;

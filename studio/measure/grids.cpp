@@ -126,14 +126,31 @@ glm::dvec3 mainDirection(const std::vector<Triangle>& triangles, const std::vect
     return before < 0 || (before == 0 && direction.y < 0) ? -direction : direction;
 }
 
+/// The file's axis that is not up beside X: along a plan.
+glm::dvec3 planAlong(const glm::dmat4& worldFromStated) {
+    return glm::abs(worldFromStated[1].y) > glm::abs(worldFromStated[2].y) ? worldFromStated[2]
+                                                                           : worldFromStated[1];
+}
+
+/// All cells' middles, in the frame's plane.
+PointSet middlesOf(const GridFrame& frame) {
+    PointSet set{.grid = frame, .rows = frame.rows};
+    set.points.reserve(std::size_t(frame.columns) * std::size_t(frame.rows));
+    for (int row = 0; row < frame.rows; ++row) {
+        for (int column = 0; column < frame.columns; ++column)
+            set.points.push_back({frame.cellMiddle(column, row), frame.normalWorld, column, row});
+    }
+    return set;
+}
+
 /// Of a floor, as on a plan; of a wall rows go up.
-GridFrame frameFacing(const glm::dvec3& normal, const glm::dmat3& statedAxes, const glm::dvec3& planAlong) {
+GridFrame frameFacing(const glm::dvec3& normal, const glm::dmat3& statedAxes, const glm::dvec3& alongPlan) {
     GridFrame frame{.normalWorld = normal};
     constexpr double steep = 0.7;
     if (std::abs(normal.y) > steep) {
         frame.acrossWorld = glm::normalize(statedAxes[0] - glm::dot(statedAxes[0], normal) * normal);
         frame.alongWorld = glm::cross(frame.acrossWorld, normal);
-        if (glm::dot(frame.alongWorld, planAlong) < 0) frame.alongWorld = -frame.alongWorld;
+        if (glm::dot(frame.alongWorld, alongPlan) < 0) frame.alongWorld = -frame.alongWorld;
     } else {
         frame.acrossWorld = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), normal));
         frame.alongWorld = glm::cross(normal, frame.acrossWorld);
@@ -193,23 +210,33 @@ PointSet planeGrid(const PlaneOption& plane, int columns, int rows, const Scene&
     }
     requireCells(columns, rows);
     const glm::dmat4 world = worldFromStated(scene);
-    // Of the file's other axes that which is not up.
-    const glm::dvec3 second = glm::abs(world[1].y) > glm::abs(world[2].y) ? world[2] : world[1];
     GridFrame frame{.cornerWorld = glm::dvec3(world * glm::dvec4(plane.corner, 1)),
                     .acrossWorld = glm::dvec3(world[0]),
-                    .alongWorld = second,
+                    .alongWorld = planAlong(world),
                     .width_m = plane.width_m,
                     .depth_m = plane.depth_m,
                     .columns = columns,
                     .rows = rows};
     requireInScene(frame, scene, moment);
-    PointSet set{.grid = frame, .rows = rows};
-    set.points.reserve(std::size_t(columns) * std::size_t(rows));
-    for (int row = 0; row < rows; ++row) {
-        for (int column = 0; column < columns; ++column)
-            set.points.push_back({frame.cellMiddle(column, row), frame.normalWorld, column, row});
-    }
-    return set;
+    return middlesOf(frame);
+}
+
+PointSet rectangleGrid(const glm::dvec3& fromWorld, const glm::dvec3& toWorld, const glm::dvec3& normalWorld,
+                       int columns, int rows, const Scene& scene) {
+    requireCells(columns, rows);
+    const glm::dmat4 world = worldFromStated(scene);
+    GridFrame frame = frameFacing(glm::normalize(normalWorld), glm::dmat3(world), planAlong(world));
+    const glm::dvec3 from = axesOf(frame) * fromWorld, to = axesOf(frame) * toWorld;
+    const glm::dvec3 low = glm::min(from, to), high = glm::max(from, to);
+    frame.cornerWorld = glm::transpose(axesOf(frame)) * glm::dvec3(low.x, low.y, from.z);
+    frame.width_m = high.x - low.x;
+    frame.depth_m = high.y - low.y;
+    frame.columns = columns;
+    frame.rows = rows;
+    if (!(frame.width_m > 0) || !(frame.depth_m > 0))
+        throw InputError(fmt::format("the grid of {:g} x {:g} m has no extent: draw it from corner to corner",
+                                     frame.width_m, frame.depth_m));
+    return middlesOf(frame);
 }
 
 PointSet surfaceGrid(const std::string& node, int columns, int rows, const Scene& scene,
@@ -217,8 +244,8 @@ PointSet surfaceGrid(const std::string& node, int columns, int rows, const Scene
     requireCells(columns, rows);
     const std::vector<Triangle> triangles = trianglesOf(node, scene, moment);
     const glm::dmat4 world = worldFromStated(scene);
-    const glm::dvec3 second = glm::abs(world[1].y) > glm::abs(world[2].y) ? world[2] : world[1];
-    GridFrame frame = frameFacing(mainDirection(triangles, moment.lights), glm::dmat3(world), second);
+    GridFrame frame =
+        frameFacing(mainDirection(triangles, moment.lights), glm::dmat3(world), planAlong(world));
     Extent extent;
     for (const Triangle& triangle : triangles) {
         for (const glm::dvec3& corner : triangle) extent.include(axesOf(frame) * corner);

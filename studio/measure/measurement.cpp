@@ -82,20 +82,15 @@ class SharedSamples {
 /// What all of a light sends to the points of a block.
 class LightMeter {
   public:
-    LightMeter(Workbench& workbench, const PointSet& set, Technique& technique)
-        : workbench_(workbench),
-          set_(set),
-          technique_(technique),
-          lighting_(workbench.device()),
-          samples_(technique) {}
+    LightMeter(PointLighting& lighting, const GpuScene& scene, const PointSet& set, Technique& technique)
+        : scene_(scene), set_(set), technique_(technique), lighting_(lighting), samples_(technique) {}
 
     std::vector<PointLight> measure(const Points& points, const Light& light) {
         const std::vector<Light> parts = partsOf(light, set_.points);
         samples_.share(parts.size());
         std::vector<PointLight> sum(points.count());
         for (const Light& part : parts) {
-            const std::vector<PointLight> added =
-                lighting_.measure(points, workbench_.scene(), part, technique_);
+            const std::vector<PointLight> added = lighting_.measure(points, scene_, part, technique_);
             for (std::size_t i = 0; i < sum.size(); ++i) {
                 sum[i].lux += added[i].lux;
                 sum[i].bound_lux += added[i].bound_lux;
@@ -107,10 +102,10 @@ class LightMeter {
     }
 
   private:
-    Workbench& workbench_;
+    const GpuScene& scene_;
     const PointSet& set_;
     Technique& technique_;
-    PointLighting lighting_;
+    PointLighting& lighting_;
     SharedSamples samples_;
 };
 
@@ -210,13 +205,19 @@ Measurement prepare(const Scene& scene, const SceneMoment& moment, PointSet set,
 void measure(Measurement& measurement, Workbench& workbench, const SceneMoment& moment, Technique& technique,
              const MeasuringOptions& options) {
     workbench.scene().update(moment);
+    PointLighting lighting(workbench.device());
+    measure(measurement, workbench.device(), lighting, workbench.scene(), moment, technique, options);
+}
+
+void measure(Measurement& measurement, Device& device, PointLighting& lighting, const GpuScene& scene,
+             const SceneMoment& moment, Technique& technique, const MeasuringOptions& options) {
     const std::vector<Light> lights = lightsOf(moment, options);
-    LightMeter meter(workbench, measurement.set, technique);
+    LightMeter meter(lighting, scene, measurement.set, technique);
     const std::vector<std::size_t> order = orderOf(measurement);
     const std::size_t steps = std::max<std::size_t>(lights.size() + options.day.size(), 1);
     for (std::size_t first = 0; first < order.size(); first += blockPoints) {
         const std::span which = std::span(order).subspan(first, std::min(blockPoints, order.size() - first));
-        const Points points = pointsOf(workbench.device(), measurement.set, which);
+        const Points points = pointsOf(device, measurement.set, which);
         std::size_t step = 0;
         const auto tell = [&] {
             const double inBlock = double(++step) / double(steps);

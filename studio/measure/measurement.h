@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "studio/frame/point_lighting.h"
 #include "studio/measure/point_set.h"
 #include "studio/measure/sun_day.h"
 #include "studio/workbench/workbench.h"
@@ -68,5 +69,9 @@ Measurement prepare(const Scene& scene, const SceneMoment& moment, PointSet set,
 /// irradiance gives lux that are right where a light is seen in part.
 void measure(Measurement& measurement, Workbench& workbench, const SceneMoment& moment, Technique& technique,
              const MeasuringOptions& options);
+
+/// The same of a scene that is at the moment already, with lighting of the same device that is kept.
+void measure(Measurement& measurement, Device& device, PointLighting& lighting, const GpuScene& scene,
+             const SceneMoment& moment, Technique& technique, const MeasuringOptions& options);
 
 }  // namespace penumbra::studio

@@ -69,4 +69,10 @@ PointSet planeGrid(const PlaneOption& plane, int columns, int rows, const Scene&
 PointSet surfaceGrid(const std::string& node, int columns, int rows, const Scene& scene,
                      const SceneMoment& moment);
 
+/// A rectangle across `normalWorld` between two opposite corners of it, with rows and columns as a plan of a
+/// floor or a wall has them; points lie in it. Throws InputError where it has no extent, and as planeGrid
+/// does.
+PointSet rectangleGrid(const glm::dvec3& fromWorld, const glm::dvec3& toWorld, const glm::dvec3& normalWorld,
+                       int columns, int rows, const Scene& scene);
+
 }  // namespace penumbra::studio

@@ -67,6 +67,12 @@ Sidecar readSidecar(const std::filesystem::path& file);
 /// The text of a file that parseSidecar reads as `sidecar`. Emission, size and place of a light come back as
 /// the same floats; angles and the rotation may differ in the last bit, having been degrees and a quaternion.
 std::string formatSidecar(const Sidecar& sidecar);
+/// Of one light, as it stands in the file's list.
+std::string formatLight(const SidecarLight& light);
+
+/// Where the light's parent is at that moment: its node, the middle of that node's underside, or what a file
+/// of the scene's own coordinates is measured from. The scene has the node.
+glm::dmat4 worldFromParent(const SidecarLight& light, const Scene& scene, const SceneMoment& moment);
 
 /// Replaces the scene's lights (if the sidecar has any say in them) and classifies its surfaces, at all
 /// times. A light that hangs on a node follows its place and rotation, not its scale. Textures are read from

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
@@ -249,6 +250,13 @@ class SidecarMotion : public Scene::Motion {
 };
 
 }  // namespace
+
+glm::dmat4 worldFromParent(const SidecarLight& light, const Scene& scene, const SceneMoment& moment) {
+    if (light.node.empty()) return light.isInWorld ? glm::dmat4(1) : scene.worldFromFile;
+    const auto node = std::ranges::find(scene.nodeNames, light.node) - scene.nodeNames.begin();
+    if (light.isBelow) return worldFromUnderside(scene, moment, int(node)).value();
+    return moment.worldFromNode.at(std::size_t(node));
+}
 
 Sidecar readSidecar(const fs::path& file) {
     const std::vector<std::byte> bytes = readWholeFile(file, maxSidecar_bytes, "lights");

@@ -148,13 +148,17 @@ std::string write(std::string_view key, const std::vector<SurfaceRule>& rules) {
 
 }  // namespace
 
+std::string formatLight(const SidecarLight& light) {
+    return write(light).dump();
+}
+
 std::string formatSidecar(const Sidecar& sidecar) {
     // One line a light, as a person would write it: nlohmann's indentation would put every number on its own.
     std::string text = "{\n  \"version\": 1";
     if (sidecar.lights) {
         text += ",\n  \"lights\": [";
         for (const SidecarLight& light : *sidecar.lights) {
-            text += (&light == sidecar.lights->data() ? "\n    " : ",\n    ") + write(light).dump();
+            text += (&light == sidecar.lights->data() ? "\n    " : ",\n    ") + formatLight(light);
         }
         text += sidecar.lights->empty() ? "]" : "\n  ]";
     }
