@@ -34,6 +34,12 @@ void CameraControl::startFrom(const Camera& camera, const Bounds& bounds) {
     height_m_ = camera.orthographicHeight_m;
 }
 
+void CameraControl::lookFrom(const LookAt& look) {
+    startFrom(lookAtCamera(look), {});
+    distance_m_ = glm::distance(look.eye, look.target);
+    target_ = look.target;
+}
+
 glm::vec3 CameraControl::towardsEye() const {
     return direction(yaw_rad_, pitch_rad_);
 }

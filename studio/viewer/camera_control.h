@@ -12,6 +12,9 @@ class CameraControl {
     /// is up.
     void startFrom(const Camera& camera, const Bounds& bounds);
 
+    /// Stands just there.
+    void lookFrom(const LookAt& look);
+
     /// Turns around what is looked at; `right` and `up` are what the hand did, in radians.
     void orbit(float right_rad, float up_rad);
     /// Moves what is looked at along with the hand; in picture heights.

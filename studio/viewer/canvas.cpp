@@ -56,6 +56,10 @@ void Canvas::compose(const FrameRenderer& frame, const Side& a, const Side& b, c
     const gl::DebugGroup group("canvas");
     const View& view = frame.gbuffer().view();
     resize(view.width_px, view.height_px);
+    isolines_.fit({.width_px = view.width_px,
+                   .height_px = view.height_px,
+                   .format = gl::Format::r32f,
+                   .label = "viewer/isolines"});
     // Between the pixels of a picture more is not known but looks better; between numbers it would be made
     // up.
     glTextureParameteri(texture_.name(), GL_TEXTURE_MAG_FILTER,
@@ -79,10 +83,12 @@ void Canvas::compose(const FrameRenderer& frame, const Side& a, const Side& b, c
         .bind("illuminanceA", a.illuminance)
         .bind("illuminanceB", b.illuminance)
         .bind("depthTexture", gl::TextureRef{.name = view.depthTexture})
+        .bind("normalTexture", gl::TextureRef{.name = view.normalTexture})
         .bind("reachTexture", a.reach.name() != 0 ? a.reach : nothing_)
         .bind("orderedMap", orderedMap_)
         .bind("divergingMap", divergingMap_)
         .bind("canvasImage", texture_)
+        .bind("isolineImage", isolines_)
         .dispatchPixels(view.width_px, view.height_px);
     order_->makeAllVisible();  // the window shows it
 }

@@ -42,6 +42,9 @@ class Canvas {
     void lookAtLight(const FrameRenderer& frame, const AreaLight& light, const glm::dmat4& worldFromLight);
 
     const gl::Texture& texture() const { return texture_; }
+    /// Of the illuminance composed last: the level (lux) of the line that runs through a pixel, or noIsoline;
+    /// R32F.
+    const gl::Texture& isolines() const { return isolines_; }
 
   private:
     void resize(int width_px, int height_px);
@@ -50,7 +53,7 @@ class Canvas {
     gl::Program compose_, inspect_, inspectLayer_, inspectRange_, inspectLayerRange_, lightView_;
     gl::Buffer inspectedRange_;
     gl::Texture orderedMap_, divergingMap_, nothing_;
-    gl::Texture texture_;
+    gl::Texture texture_, isolines_;
 };
 
 }  // namespace penumbra::studio::viewer

@@ -27,6 +27,9 @@ SHARED_STRUCT ComposeConstants {
     int firstColumnOfB;  // pixels from here on show side B
 };
 
+// What the image of isolines holds where there is none.
+const float noIsoline = 0.0;
+
 SHARED_STRUCT InspectConstants {
     ivec2 size_px;
     int layer;

@@ -32,6 +32,20 @@ ImU32 axisColor(Gizmo::Axis axis) {
     return IM_COL32(240, 200, 110, 255);
 }
 
+int pixelOf(float place, float size, int count_px) {
+    return std::clamp(int(place / size * float(count_px)), 0, count_px - 1);
+}
+
+/// A surface that is upright or level but for the last bits of its normal is so.
+glm::dvec3 uprightOf(const glm::vec3& normal) {
+    glm::dvec3 result = glm::normalize(glm::dvec3(normal));
+    constexpr double rounding = 1e-4;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (std::abs(result[axis]) < rounding) result[axis] = 0;
+    }
+    return glm::normalize(result);
+}
+
 bool overWipe(const CanvasPlace& place, const Choices& choices, const ImVec2& p, float scale) {
     return choices.comparing && std::abs(p.x - (place.min.x + choices.wipe * place.size.x)) < 6 * scale;
 }
@@ -50,7 +64,7 @@ std::optional<std::size_t> lightAt(const Session& session, const Projection& pro
 }
 
 void CanvasMouse::update(const CanvasPlace& place, const Window& window, Session& session,
-                         const WindowState& windowState, float scale) {
+                         WindowState& windowState, float scale) {
     const ImGuiIO& io = ImGui::GetIO();
     if (holds_ == Holds::nothing) {
         if (!io.WantCaptureMouse && place.contains(io.MousePos)) {
@@ -73,8 +87,7 @@ void CanvasMouse::update(const CanvasPlace& place, const Window& window, Session
     if (!ImGui::IsMouseDown(button)) release(place, session, scale);
 }
 
-void CanvasMouse::press(const CanvasPlace& place, Session& session, const WindowState& windowState,
-                        float scale) {
+void CanvasMouse::press(const CanvasPlace& place, Session& session, WindowState& windowState, float scale) {
     const ImVec2 cursor = ImGui::GetIO().MousePos;
     last_ = cursor;
     travelled_ = 0;
@@ -84,6 +97,19 @@ void CanvasMouse::press(const CanvasPlace& place, Session& session, const Window
         holds_ = Holds::fly;
     } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
         holds_ = Holds::orbit;
+        if (windowState.placesGrid) {
+            const auto surface =
+                surfaceAt(session.frame(), pixelOf(cursor.x - place.min.x, place.size.x, session.width_px()),
+                          pixelOf(cursor.y - place.min.y, place.size.y, session.height_px()));
+            if (!surface) return;
+            holds_ = Holds::grid;
+            windowState.placesGrid = false;
+            gridBefore_ = session.choices().grid;
+            session.choices().grid = GridSpec{.fromWorld = surface->posWorld,
+                                              .toWorld = surface->posWorld,
+                                              .normalWorld = uprightOf(surface->normalWorld)};
+            return;
+        }
         if (overWipe(place, session.choices(), cursor, scale)) {
             holds_ = Holds::wipe;
             return;
@@ -123,6 +149,8 @@ void CanvasMouse::drag(const CanvasPlace& place, Session& session, bool snap) {
         case Holds::wipe:
             session.choices().wipe = std::clamp((cursor.x - place.min.x) / place.size.x, 0.0f, 1.0f);
             return session.changedCanvas();
+        case Holds::grid:
+            return dragGrid(place, session);
         case Holds::gizmo: {
             std::vector<Light> lights = session.document().moment().lights;
             const std::size_t selected = session.choices().light;
@@ -133,11 +161,23 @@ void CanvasMouse::drag(const CanvasPlace& place, Session& session, bool snap) {
     }
 }
 
+void CanvasMouse::dragGrid(const CanvasPlace& place, Session& session) {
+    GridSpec& spec = *session.choices().grid;
+    const Projection::Ray ray = projectionOf(session, place).rayThrough(toCanvas(place, last_));
+    const glm::dvec3 direction(ray.direction);
+    const double facing = glm::dot(direction, spec.normalWorld);
+    const double way = glm::dot(spec.fromWorld - glm::dvec3(ray.origin), spec.normalWorld);
+    if (!(way * facing > 0)) return;  // over the horizon
+    spec.toWorld = glm::dvec3(ray.origin) + way / facing * direction;
+    fitCells(spec);
+}
+
 void CanvasMouse::release(const CanvasPlace& place, Session& session, float scale) {
     const bool clicked = travelled_ < clickReach;
     const Holds held = holds_;
     holds_ = Holds::nothing;
     gizmo_.end();
+    if (held == Holds::grid && clicked) session.choices().grid = gridBefore_;  // no drag, no grid
     if (held != Holds::orbit || !clicked) return;
     const glm::vec2 cursor = toCanvas(place, last_);
     if (const auto light = lightAt(session, projectionOf(session, place), cursor, scale)) {
@@ -145,9 +185,8 @@ void CanvasMouse::release(const CanvasPlace& place, Session& session, float scal
         session.changedLighting();
         return;
     }
-    session.picker().pick(
-        std::clamp(int(cursor.x / place.size.x * float(session.width_px())), 0, session.width_px() - 1),
-        std::clamp(int(cursor.y / place.size.y * float(session.height_px())), 0, session.height_px() - 1));
+    session.picker().pick(pixelOf(cursor.x, place.size.x, session.width_px()),
+                          pixelOf(cursor.y, place.size.y, session.height_px()));
 }
 
 void CanvasMouse::fly(const Window& window, Session& session) {

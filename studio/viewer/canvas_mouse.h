@@ -21,8 +21,8 @@ struct CanvasPlace {
 class CanvasMouse {
   public:
     /// Once a frame, within Dear ImGui's. `scale` as Ui::scale().
-    void update(const CanvasPlace& place, const Window& window, Session& session,
-                const WindowState& windowState, float scale);
+    void update(const CanvasPlace& place, const Window& window, Session& session, WindowState& windowState,
+                float scale);
     /// Draws lights, gizmo and wipe line over the canvas.
     void draw(const CanvasPlace& place, const Session& session, const WindowState& windowState,
               float scale) const;
@@ -31,8 +31,9 @@ class CanvasMouse {
     bool busy() const { return holds_ != Holds::nothing; }
 
   private:
-    enum class Holds { nothing, orbit, pan, fly, gizmo, wipe };
-    void press(const CanvasPlace& place, Session& session, const WindowState& windowState, float scale);
+    enum class Holds { nothing, orbit, pan, fly, gizmo, wipe, grid };
+    void press(const CanvasPlace& place, Session& session, WindowState& windowState, float scale);
+    void dragGrid(const CanvasPlace& place, Session& session);
     void drag(const CanvasPlace& place, Session& session, bool snap);
     void release(const CanvasPlace& place, Session& session, float scale);
     void fly(const Window& window, Session& session);
@@ -44,6 +45,7 @@ class CanvasMouse {
     ImVec2 last_{0, 0};
     float travelled_ = 0;
     Gizmo gizmo_;
+    std::optional<GridSpec> gridBefore_;  ///< the drag
 };
 
 /// The light whose middle is drawn near `cursor`, if any.

@@ -13,10 +13,12 @@ uniform sampler2D visibilityB;
 uniform sampler2D illuminanceA;
 uniform sampler2D illuminanceB;
 uniform sampler2D depthTexture;
+uniform sampler2D normalTexture;
 uniform sampler2D reachTexture;
 uniform sampler2D orderedMap;
 uniform sampler2D divergingMap;
 layout(rgba8) uniform writeonly image2D canvasImage;
+layout(r32f) uniform writeonly image2D isolineImage;
 
 // Coloured visibility counts by the mean of its channels; others repeat their one (their textures are swizzled so).
 float visibility(sampler2D visibilityTexture, ivec2 pixel) {
@@ -51,10 +53,44 @@ int levelsBelow(float value) {
     return 3 * int(decade) + (digit >= 4.9999 ? 2 : digit >= 1.9999 ? 1 : 0);
 }
 
-bool isOnIsoline(ivec2 pixel) {
+float levelOf(int index) {
+    int decade = int(floor(float(index) / 3.0));
+    int digit = index - 3 * decade;
+    return (digit == 2 ? 5.0 : digit == 1 ? 2.0 : 1.0) * pow(10.0, float(decade));
+}
+
+float depth(ivec2 pixel) {
+    return texelFetch(depthTexture, clamp(pixel, ivec2(0), constants.size_px - 1), 0).r;
+}
+
+// Whether a neighbour shows the same surface: depth, which is the inverse of distance or linear in it, goes on as
+// it does on a plane on one of the two sides, and there is no crease.
+bool isSameSurface(ivec2 pixel, ivec2 way) {
+    ivec2 neighbour = pixel + way;
+    if (any(greaterThanEqual(neighbour, constants.size_px))) return false;
+    float here = depth(pixel), there = depth(neighbour);
+    if (here <= 0.0 || there <= 0.0) return false;
+    float step = there - here;
+    float bend = min(abs(step - (here - depth(pixel - way))), abs(step - (depth(neighbour + way) - there)));
+    const float flatness = 0.003, crease = 0.95;  // of the depth; the cosine of 18 degrees
+    vec3 normalHere = texelFetch(normalTexture, pixel, 0).xyz;
+    vec3 normalThere = texelFetch(normalTexture, neighbour, 0).xyz;
+    return bend < flatness * here && dot(normalHere, normalThere) > crease;
+}
+
+// The level that lies between the pixel and its neighbours, or noIsoline. What differs from surface to surface is
+// an outline.
+float isolineAt(ivec2 pixel) {
+    const float leastShare = 1e-4;  // of what is shown: below it dark surfaces differ by rounding
+    float least = max(constants.rangeMin, leastShare * constants.rangeMax);
     int here = levelsBelow(illuminance(pixel));
-    return here != levelsBelow(illuminance(pixel + ivec2(1, 0))) ||
-           here != levelsBelow(illuminance(pixel + ivec2(0, 1)));
+    for (int axis = 0; axis < 2; ++axis) {
+        ivec2 way = axis == 0 ? ivec2(1, 0) : ivec2(0, 1);
+        int there = levelsBelow(illuminance(pixel + way));
+        float level = levelOf(max(here, there));
+        if (here != there && level >= least && isSameSurface(pixel, way)) return level;
+    }
+    return noIsoline;
 }
 
 void main() {
@@ -80,10 +116,10 @@ void main() {
     } else if (kind == shownIlluminance) {
         float value = illuminance(pixel);
         shown = hasSurface ? colorOf(orderedMap, placeOf(value)) : vec3(0.1);
-        if (hasSurface && constants.hasIsolines && isOnIsoline(pixel)) {
-            // Dark on light colours, light on dark ones.
-            shown = placeOf(value) > 0.45 ? vec3(0.0) : vec3(1.0);
-        }
+        float level = hasSurface && constants.hasIsolines ? isolineAt(pixel) : noIsoline;
+        // Dark on light colours, light on dark ones.
+        if (level != noIsoline) shown = placeOf(value) > 0.45 ? vec3(0.0) : vec3(1.0);
+        imageStore(isolineImage, pixel, vec4(level));
     }
     imageStore(canvasImage, pixel, vec4(shown, 1.0));
 }

@@ -6,51 +6,50 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 
-#include "studio/errors.h"
-#include "studio/image/atomic_file.h"
-#include "studio/image/image_io.h"
 #include "studio/reference/content_hash.h"
-#include "studio/scene/builtin/placing.h"
 #include "studio/scene/gltf/lights.h"
 #include "studio/scene/profiles/luminaire.h"
 
 namespace penumbra::studio::viewer {
+
+/// A light as it is, by now.
+struct EditedLight {
+    WrittenLight written;
+    Light light;  ///< what reading that gives, at the moment of the edit; unused for the scene's own
+    glm::dmat4 parentFromLight{1};
+    bool isScenes() const { return !written.now; }
+};
+
+struct EditedLights::State {
+    std::vector<EditedLight> lights;
+};
+
 namespace {
 
 namespace fs = std::filesystem;
 
-/// How much of its emission's unit (nits, candela, lux) a light gives to a surface far off that faces it: the
-/// area or the solid angle that it shows, or 1 for a light of size zero.
-float effect(const AreaLight& shape) {
-    constexpr float pi = std::numbers::pi_v<float>;
-    switch (shape.shape) {
-        case LightShape::rect:
-            return shape.width_m * shape.height_m;
-        case LightShape::disk:
-        case LightShape::sphere:
-            return pi * shape.radius_m * shape.radius_m;
-        case LightShape::cylinder:
-            return 2 * shape.radius_m * shape.length_m;
-        case LightShape::distant: {
-            const float sine = std::sin(0.5f * shape.angle_rad);
-            return pi * sine * sine;
-        }
-    }
-    return 0;
+bool same(const std::optional<ProfiledEmission>& a, const std::optional<ProfiledEmission>& b) {
+    if (!a || !b) return !a && !b;
+    return a->profile == b->profile && a->isLuminaire == b->isLuminaire && a->turn_rad == b->turn_rad &&
+           a->angleScale == b->angleScale && a->factor == b->factor;
 }
 
-void setUnit(Light& light) {
-    const bool hasSize = effect(light.shape) > 0;
-    light.emission.unit = hasSize                                    ? Emission::Unit::nits
-                          : light.shape.shape == LightShape::distant ? Emission::Unit::lux
-                                                                     : Emission::Unit::candela;
+bool same(const std::optional<SunOrigin>& a, const std::optional<SunOrigin>& b) {
+    if (!a || !b) return !a && !b;
+    return a->latitude_deg == b->latitude_deg && a->longitude_deg == b->longitude_deg && a->time == b->time &&
+           a->setting == b->setting && a->multiplier == b->multiplier;
 }
 
-std::string extensionOf(const LightProfile& profile) {
-    return profile.version == "EULUMDAT" ? ".ldt" : ".ies";
+/// Whether nobody has changed anything.
+bool same(const Light& a, const Light& b) {
+    return a.name == b.name && a.shape.shape == b.shape.shape &&
+           a.shape.worldFromLight == b.shape.worldFromLight && a.shape.width_m == b.shape.width_m &&
+           a.shape.height_m == b.shape.height_m && a.shape.length_m == b.shape.length_m &&
+           a.shape.radius_m == b.shape.radius_m && a.shape.angle_rad == b.shape.angle_rad &&
+           a.shape.twoSided == b.shape.twoSided && a.emission.unit == b.emission.unit &&
+           a.emission.value == b.emission.value && a.texture == b.texture && a.castsShadow == b.castsShadow &&
+           a.cone_rad == b.cone_rad && same(a.profile, b.profile) && same(a.sun, b.sun);
 }
 
 /// "lamp", or "lamp 2" where that is taken.
@@ -66,168 +65,192 @@ void makeNamesUnique(std::vector<Light>& lights) {
     }
 }
 
-/// What a file of these lights says, read back.
-std::vector<Light> throughText(const std::vector<SidecarLight>& lights) {
-    const Sidecar sidecar{.fileName = "edited lights", .lights = lights};
-    const Sidecar read = parseSidecar(formatSidecar(sidecar), sidecar.fileName);
-    std::vector<Light> result;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        Light light = read.lights->at(i).light;
-        light.texture = lights[i].light.texture;
-        light.profile = lights[i].light.profile;
-        if (light.profile && light.profile->isLuminaire) light.shape = lights[i].light.shape;
-        place(light, gltf::rigidPart(glm::mat4(read.lights->at(i).parentFromLight)));
-        result.push_back(std::move(light));
-    }
-    return result;
-}
-
-/// A light as a file states it, but for the names of the files that it needs.
-SidecarLight stated(const Light& light) {
-    SidecarLight result{.light = light, .parentFromLight = worldFromLightOf(light)};
-    if (light.profile) {
-        const ProfiledEmission& profile = *light.profile;
-        result.profile = {.file = "profile" + extensionOf(*profile.profile),
-                          .isLuminaire = profile.isLuminaire,
-                          .angleScale = profile.angleScale,
-                          .normalize = profile.factor != 1,
-                          .turn_deg = glm::degrees(profile.turn_rad)};
-    }
-    return result;
-}
-
-struct LightFiles {
-    std::string text;
-    std::vector<std::pair<std::string, std::string>> profiles;  ///< by file name
-    std::vector<std::pair<std::string, Image>> pictures;        ///< by file name
-};
-
-LightFiles filesOf(const Scene& scene, std::vector<SidecarLight> lights, const std::string& stem,
-                   SurfaceRules surfaces) {
-    LightFiles files;
-    const glm::dmat4 fileFromWorld = glm::inverse(scene.worldFromFile);
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (lights[i].profile) {
-            const LightProfile& profile = *lights[i].light.profile->profile;
-            lights[i].profile->file = fmt::format("{}.light{}{}", stem, i + 1, extensionOf(profile));
-            files.profiles.emplace_back(lights[i].profile->file, profile.text);
+/// The node that a light of the scene rides on, where all of its motion is that node's. Names that several
+/// nodes have are no answer.
+std::string nodeOf(const Scene& scene, std::size_t own) {
+    if (scene.duration_s() <= 0) return "";
+    std::vector<SceneMoment> moments;
+    for (const double share : {0.0, 0.23, 0.51, 0.87})
+        moments.push_back(scene.at(share * scene.duration_s()));
+    const auto worldFromLight = [&](const SceneMoment& moment) {
+        return glm::dmat4(glm::mat4(worldFromLightOf(moment.lights.at(own))));
+    };
+    const auto isNear = [](const glm::dmat4& a, const glm::dmat4& b) {
+        constexpr double tolerance = 1e-4;
+        for (int column = 0; column < 4; ++column) {
+            if (glm::distance(a[column], b[column]) > tolerance * (1 + glm::length(a[column]))) return false;
         }
-        if (scene.worldFromFile != glm::dmat4(1))
-            lights[i].parentFromLight = fileFromWorld * lights[i].parentFromLight;
-        const int texture = lights[i].light.texture;
-        if (texture < 0) continue;
-        const Picture& picture = scene.pictures[std::size_t(scene.textures[std::size_t(texture)].picture)];
-        Image image(picture.width_px, picture.height_px, 4);
-        std::ranges::transform(picture.rgba, image.values.begin(),
-                               [](std::uint8_t value) { return float(value) / 255.0f; });
-        lights[i].textureFile = fmt::format("{}.light{}.png", stem, i + 1);
-        files.pictures.emplace_back(lights[i].textureFile, std::move(image));
+        return true;
+    };
+    const glm::dmat4 first = worldFromLight(moments.front());
+    if (std::ranges::all_of(moments, [&](const SceneMoment& m) { return isNear(worldFromLight(m), first); }))
+        return "";
+    for (std::size_t node = 0; node < scene.nodeNames.size(); ++node) {
+        const std::string& name = scene.nodeNames[node];
+        if (name.empty() || std::ranges::count(scene.nodeNames, name) != 1) continue;
+        const auto nodeFromLight = [&](const SceneMoment& moment) {
+            return glm::inverse(glm::dmat4(moment.worldFromNode[node])) * worldFromLight(moment);
+        };
+        const glm::dmat4 held = nodeFromLight(moments.front());
+        if (std::ranges::all_of(moments,
+                                [&](const SceneMoment& m) { return isNear(nodeFromLight(m), held); }))
+            return name;
     }
-    files.text =
-        formatSidecar({.fileName = stem, .lights = std::move(lights), .surfaces = std::move(surfaces)});
-    return files;
+    return "";
 }
 
-SurfaceRules surfacesOf(const fs::path& sidecar) {
-    std::error_code error;
-    return fs::exists(sidecar, error) ? readSidecar(sidecar).surfaces : SurfaceRules();
+glm::mat4 placed(const glm::dmat4& worldFromParent, const glm::dmat4& parentFromLight) {
+    return gltf::rigidPart(glm::mat4(worldFromParent * parentFromLight));
 }
 
-void write(const LightFiles& files, const fs::path& file) {
-    for (const auto& [name, picture] : files.pictures) writePng(file.parent_path() / name, picture);
-    for (const auto& [name, text] : files.profiles) writeFileAtomically(file.parent_path() / name, text);
-    writeFileAtomically(file, files.text);
+/// As the scene hangs it, at that moment; in the world where no rotation and translation say so (a node that
+/// is sheared).
+SidecarLight hung(const Light& light, const SidecarLight& parent, const Scene& scene,
+                  const SceneMoment& moment) {
+    SidecarLight result = stated(light);
+    if (parent.node.empty() || light.sun) return result;
+    SidecarLight hanging = result;
+    hanging.node = parent.node;
+    hanging.isBelow = parent.isBelow;
+    const glm::dmat4 worldFromParent = studio::worldFromParent(hanging, scene, moment);
+    const glm::dmat4 worldFromLight = result.parentFromLight;
+    hanging.parentFromLight = glm::inverse(worldFromParent) * worldFromLight;
+    const glm::mat4 rigid = gltf::rigidPart(glm::mat4(hanging.parentFromLight));
+    for (int axis = 0; axis < 3; ++axis) hanging.parentFromLight[axis] = rigid[axis];
+    const glm::mat4 back = placed(worldFromParent, hanging.parentFromLight);
+    constexpr float tolerance = 1e-4f;
+    for (int column = 0; column < 4; ++column) {
+        const glm::vec4 wanted(worldFromLight[column]);
+        if (glm::distance(back[column], wanted) > tolerance * (1 + glm::length(wanted))) return result;
+    }
+    return hanging;
+}
+
+glm::dmat4 worldFromParentOf(const SidecarLight& light, const Scene& scene, const SceneMoment& moment) {
+    return light.node.empty() ? glm::dmat4(1) : worldFromParent(light, scene, moment);
+}
+
+/// Angles and rotations change in the last bit on their way through a file: where hands have not, they stay
+/// as they were given to be written. `light` was `shown` before.
+void keepUntouched(SidecarLight& now, const SidecarLight& before, const Light& light, const Light& shown) {
+    if (light.shape.worldFromLight == shown.shape.worldFromLight) {
+        now.parentFromLight = before.parentFromLight;
+        now.node = before.node;
+        now.isBelow = before.isBelow;
+    }
+    if (light.cone_rad == shown.cone_rad) now.light.cone_rad = before.light.cone_rad;
+    if (light.shape.angle_rad == shown.shape.angle_rad)
+        now.light.shape.angle_rad = before.light.shape.angle_rad;
+    if (now.profile && before.profile && light.profile->turn_rad == shown.profile->turn_rad)
+        now.profile->turn_deg = before.profile->turn_deg;
+}
+
+/// What a file of this light says, read back.
+void readBack(EditedLight& light, const Scene& scene, const SceneMoment& moment) {
+    const SidecarLight& now = *light.written.now;
+    const Sidecar sidecar{.fileName = "edited lights", .lights = std::vector{now}};
+    const SidecarLight read = parseSidecar(formatSidecar(sidecar), sidecar.fileName).lights->at(0);
+    light.light = read.light;
+    light.light.texture = now.light.texture;
+    light.light.profile = now.light.profile;
+    if (now.profile && now.profile->isLuminaire) light.light.shape = now.light.shape;
+    light.parentFromLight = read.parentFromLight;
+    place(light.light, placed(worldFromParentOf(now, scene, moment), light.parentFromLight));
 }
 
 }  // namespace
 
-Light newLight(const Bounds& bounds, std::size_t number) {
-    Light light = keyLight("new light", bounds);
-    // The golden angle: never where one was before.
-    const glm::mat4 turn = glm::translate(glm::mat4(1), bounds.center()) *
-                           glm::rotate(glm::mat4(1), 2.4f * float(number), glm::vec3(0, 1, 0)) *
-                           glm::translate(glm::mat4(1), -bounds.center());
-    light.shape.worldFromLight =
-        std::bit_cast<Mat4>(turn * std::bit_cast<glm::mat4>(light.shape.worldFromLight));
-    return light;
+EditedLights::EditedLights(const Scene& scene, const fs::path& sidecar) : scene_(scene), file_(sidecar) {}
+
+std::vector<Light> EditedLights::at(const SceneMoment& moment, const std::vector<Light>& own) const {
+    if (!state_) return own;
+    std::vector<Light> lights;
+    for (const EditedLight& edited : state_->lights) {
+        if (edited.isScenes()) {
+            lights.push_back(own.at(*edited.written.own));
+            continue;
+        }
+        Light& light = lights.emplace_back(edited.light);
+        const SidecarLight& now = *edited.written.now;
+        if (!now.node.empty())
+            place(light, placed(worldFromParent(now, scene_, moment), edited.parentFromLight));
+    }
+    return lights;
 }
 
-void changeShape(Light& light, LightShape shape) {
-    AreaLight& area = light.shape;
-    if (area.shape == shape) return;
-    const glm::mat4 worldFromLight = std::bit_cast<glm::mat4>(area.worldFromLight);
-    const float distance_m = std::max(glm::length(glm::vec3(worldFromLight[3])), 0.1f);
-    const glm::vec3 color = light.emission.value * effect(area);
-    const bool wasDistant = area.shape == LightShape::distant;
-    const float radius_m = area.shape == LightShape::rect ? 0.5f * std::sqrt(area.width_m * area.height_m)
-                           : wasDistant                   ? distance_m * std::tan(0.5f * area.angle_rad)
-                           : area.shape == LightShape::cylinder ? 0.5f * area.length_m
-                                                                : area.radius_m;
-    constexpr float slenderness = 20;  // of a tube of T8, 26 mm across, of 0.6 m
-    area.shape = shape;
-    area.width_m = area.height_m = shape == LightShape::rect ? 2 * radius_m : 0;
-    area.length_m = shape == LightShape::cylinder ? 2 * radius_m : 0;
-    area.radius_m = shape == LightShape::disk || shape == LightShape::sphere ? radius_m
-                    : shape == LightShape::cylinder                          ? radius_m / slenderness
-                                                                             : 0;
-    area.angle_rad = shape == LightShape::distant ? 2 * std::atan(radius_m / distance_m) : 0;
-    if (shape != LightShape::rect) light.texture = -1;
-    light.profile.reset();
-    light.sun.reset();
-    if (shape == LightShape::distant) light.cone_rad.reset();
-    if (shape != LightShape::rect && shape != LightShape::disk) area.twoSided = false;
-    // Candela at a distance are lux of a distant light.
-    const float toLux = (shape == LightShape::distant) == wasDistant ? 1.0f
-                        : wasDistant                                 ? distance_m * distance_m
-                                                                     : 1 / (distance_m * distance_m);
-    const float now = effect(area);
-    light.emission.value = color * toLux / (now > 0 ? now : 1);
-    setUnit(light);
-}
-
-void setSize(Light& light, float AreaLight::*size, float value) {
-    if (light.profile && light.profile->isLuminaire) return;  // its size is its file's
-    light.sun.reset();
-    const float before = effect(light.shape);
-    light.shape.*size = value;
-    const float now = effect(light.shape);
-    if ((before > 0) != (now > 0)) light.emission.value *= now > 0 ? 1 / now : before;
-    setUnit(light);
-}
-
-void EditedLights::apply(SceneMoment& moment) const {
-    if (state_) moment.lights = state_->lights;
-}
-
-void EditedLights::edit(std::vector<Light> lights) {
+void EditedLights::edit(std::vector<Light> lights, const SceneMoment& moment, const std::vector<Light>& own) {
+    std::vector<EditedLight> before;
+    if (state_) before = state_->lights;
+    for (std::size_t i = 0; !state_ && i < own.size(); ++i)
+        before.push_back({.written = {.own = i, .was = {}, .now = {}}, .light = {}});
+    const std::vector<Light>& shown = moment.lights;
+    std::vector<std::optional<std::size_t>> from(lights.size());
+    const auto find = [&](std::size_t i, const auto& matches) {
+        if (i < shown.size() && matches(shown[i])) return std::optional(i);
+        const auto found = std::ranges::find_if(shown, matches);
+        return found == shown.end() ? std::nullopt : std::optional(std::size_t(found - shown.begin()));
+    };
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        from[i] = find(i, [&](const Light& light) { return same(light, lights[i]); });
+        if (!from[i] && lights.size() == shown.size()) from[i] = i;
+        if (!from[i]) from[i] = find(i, [&](const Light& light) { return light.name == lights[i].name; });
+    }
     makeNamesUnique(lights);
+
     auto state = std::make_shared<State>();
-    for (const Light& light : lights) state->written.push_back(stated(light));
-    state->lights = throughText(state->written);
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const EditedLight* const ancestor = from[i] ? &before.at(*from[i]) : nullptr;
+        // The scene's own stay so where the file has them, or where nothing has them but the scene.
+        const std::optional<std::size_t> ofScene = ancestor != nullptr ? ancestor->written.own : std::nullopt;
+        const bool isInFile = ofScene && *ofScene < file_.lights().size();
+        const bool isSame = ancestor != nullptr && same(shown[*from[i]], lights[i]);
+        if (isSame && (isInFile || !ancestor->isScenes())) {
+            state->lights.push_back(*ancestor);
+            continue;
+        }
+        EditedLight& edited = state->lights.emplace_back();
+        edited.written.own = ofScene;
+        SidecarLight parent;
+        if (isInFile) {
+            parent = file_.lights()[*ofScene];
+        } else if (ofScene) {
+            parent.node = ancestor->isScenes() ? nodeOf(scene_, *ofScene) : ancestor->written.now->node;
+        }
+        edited.written.now = hung(lights[i], parent, scene_, moment);
+        if (ancestor != nullptr && !ancestor->isScenes()) {
+            edited.written.was = ancestor->written.was;
+            keepUntouched(*edited.written.now, *ancestor->written.now, lights[i], shown[*from[i]]);
+        } else if (isInFile) {
+            parent.node = edited.written.now->node;
+            edited.written.was = hung(own.at(*ofScene), parent, scene_, moment);
+        }
+        readBack(edited, scene_, moment);
+    }
     state_ = std::move(state);
 }
 
-std::vector<SidecarLight> EditedLights::written() const {
-    return state_ ? state_->written : std::vector<SidecarLight>();
+std::vector<WrittenLight> EditedLights::written() const {
+    std::vector<WrittenLight> lights;
+    if (state_) {
+        for (const EditedLight& light : state_->lights) lights.push_back(light.written);
+    }
+    return lights;
 }
 
-void EditedLights::save(const Scene& scene, const fs::path& file) {
-    write(filesOf(scene, written(), file.stem().stem().string(), surfacesOf(file)), file);
+void EditedLights::save(const fs::path& file) {
+    write(file_.with(scene_, written(), file.stem().stem().string(), file_.liesIn(file.parent_path())), file);
     saved_ = state_;
 }
 
-fs::path EditedLights::snapshot(const Scene& scene, const fs::path& folder, const fs::path& sidecar) const {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    const SurfaceRules surfaces = surfacesOf(sidecar);
-    LightFiles files = filesOf(scene, written(), "lights", surfaces);
+fs::path EditedLights::snapshot(const fs::path& folder) const {
+    const LightFile::Written files = file_.with(scene_, written(), "lights", false);
     ContentHasher hasher;
     hasher.addArray(files.text);
     for (const auto& [name, picture] : files.pictures) hasher.addArray(picture.values);
-    for (const auto& [name, text] : files.profiles) hasher.addArray(text);
-    const std::string stem = hasher.hash().hex();
-    files = filesOf(scene, written(), stem, surfaces);
-    const fs::path file = folder / (stem + ".lights.json");
+    for (const auto& [name, content] : files.files) hasher.addArray(content);
+    const fs::path file = folder / hasher.hash().hex() / "scene.lights.json";
+    std::error_code error;
+    fs::create_directories(file.parent_path(), error);
     if (!fs::exists(file, error)) write(files, file);
     return file;
 }

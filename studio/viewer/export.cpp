@@ -78,13 +78,13 @@ std::string shownName(Shown shown) {
     return "";
 }
 
-Metadata metadataOf(const Session& session, const std::string& command) {
+Metadata metadataOf(const Session& session, const std::string& command, float exposureValue) {
     const Choices& choices = session.choices();
     const CanvasOptions options = session.canvasOptions();
     return {
         {"Software", "penumbra viewer"},
         {"penumbra:command", command},
-        {"penumbra:exposure_ev", fmt::format("{}", session.exposureValue())},
+        {"penumbra:exposure_ev", fmt::format("{}", exposureValue)},
         {"penumbra:renderer", session.device().renderer()},
         {"penumbra:shown", shownName(choices.shown)},
         {"penumbra:sides", choices.comparing ? choices.technique + " | " + choices.other : choices.technique},
@@ -94,7 +94,7 @@ Metadata metadataOf(const Session& session, const std::string& command) {
 
 }  // namespace
 
-std::string renderCommand(Session& session, const fs::path& folder) {
+std::string renderCommand(Session& session, const fs::path& folder, PictureSize size) {
     const Document& document = session.document();
     std::string scene = document.nameOrPath();
     std::error_code error;
@@ -102,8 +102,7 @@ std::string renderCommand(Session& session, const fs::path& folder) {
     std::string line = "penumbra render " + shellWord(scene);
     const OpenOptions& options = document.options();
     if (document.lights().edited()) {
-        const fs::path lights =
-            document.lights().snapshot(document.scene(), folder / "lights", document.sidecar());
+        const fs::path lights = document.lights().snapshot(folder / "lights");
         line += " --lights " + shellWord(lights.string());
     } else if (options.lightsFile) {
         line += " --lights " + shellWord(fs::absolute(*options.lightsFile, error).string());
@@ -126,21 +125,22 @@ std::string renderCommand(Session& session, const fs::path& folder) {
     if (session.choices().exposureValue)
         line += fmt::format(" --exposure={}", *session.choices().exposureValue);
     line += cameraFlags(session) + techniqueFlags(session);
-    line += fmt::format(" --size {}x{} -o picture.png", session.width_px(), session.height_px());
+    line += fmt::format(" --size {}x{} -o picture.png", size.width_px, size.height_px);
     return line;
 }
 
-void savePicture(Session& session, const fs::path& file, const std::string& command) {
-    const Side& side = session.side(0);
-    const int width = session.width_px(), height = session.height_px();
+void savePicture(const Session& session, const Session::KeptPicture& picture, const fs::path& file,
+                 const std::string& command) {
+    const auto& [side, width, height, exposureValue] = picture;
     if (file.extension() == ".png") {
-        writePng(file, readTexture(side.display.name(), width, height, 3), metadataOf(session, command));
+        writePng(file, readTexture(side.display.name(), width, height, 3),
+                 metadataOf(session, command, exposureValue));
     } else if (file.extension() == ".exr") {
         const Image radiance = readTexture(side.radiance.name(), width, height, 3);
         std::vector<ExrChannel> channels = channelsOf(radiance, "");
         const Image lux = readTexture(side.illuminance.name(), width, height, 1);
         channels.push_back({"illuminance", lux.values});
-        writeExr(file, {width, height, std::move(channels), metadataOf(session, command)});
+        writeExr(file, {width, height, std::move(channels), metadataOf(session, command, exposureValue)});
     } else {
         throw UsageError(fmt::format("'{}': pictures are .png or .exr", file.string()));
     }
@@ -149,7 +149,7 @@ void savePicture(Session& session, const fs::path& file, const std::string& comm
 void saveCanvas(const Session& session, const fs::path& file, const std::string& command) {
     const gl::Texture& canvas = session.canvas().texture();
     writePng(file, readTexture(canvas.name(), canvas.width_px(), canvas.height_px(), 3),
-             metadataOf(session, command));
+             metadataOf(session, command, session.exposureValue()));
 }
 
 void Recorder::start(const Plan& plan) {

@@ -11,11 +11,12 @@ namespace penumbra::studio::viewer {
 
 /// The `penumbra render` line that makes side A's picture without a window, pixel for pixel on the same
 /// device. Edited lights are written to a file beneath `folder`, which the line names.
-std::string renderCommand(Session& session, const std::filesystem::path& folder);
+std::string renderCommand(Session& session, const std::filesystem::path& folder, PictureSize size);
 
 /// Side A's picture: .png as shown, .exr in nits. Its metadata hold `command` and the viewer's choices.
 /// Throws UsageError for other extensions and OutputError.
-void savePicture(Session& session, const std::filesystem::path& file, const std::string& command);
+void savePicture(const Session& session, const Session::KeptPicture& picture,
+                 const std::filesystem::path& file, const std::string& command);
 /// The canvas as it is shown, false colours and all, as PNG.
 void saveCanvas(const Session& session, const std::filesystem::path& file, const std::string& command);
 

@@ -7,7 +7,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "studio/viewer/edited_lights.h"
+#include "studio/viewer/light_editing.h"
 
 namespace penumbra::studio::viewer {
 namespace {

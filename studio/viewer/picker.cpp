@@ -28,21 +28,33 @@ glm::vec4 readPixel(GLuint texture, int x, int y, int height_px, GLenum format =
 
 }  // namespace
 
+std::optional<SurfacePoint> surfaceAt(const FrameRenderer& frame, int x, int y) {
+    const View& view = frame.gbuffer().view();
+    if (x < 0 || y < 0 || x >= view.width_px || y >= view.height_px) return {};
+    const float depth = readPixel(view.depthTexture, x, y, view.height_px, GL_DEPTH_COMPONENT).r;
+    if (!(depth > 0)) return {};
+    const CameraView& camera = frame.camera();
+    const glm::dvec4 clip((x + 0.5) / view.width_px * 2 - 1, 1 - (y + 0.5) / view.height_px * 2, depth, 1);
+    const glm::dvec4 pos = glm::inverse(camera.clipFromView * camera.viewFromWorld) * clip;
+    return SurfacePoint{glm::vec3(glm::dvec3(pos) / pos.w),
+                        glm::vec3(readPixel(view.normalTexture, x, y, view.height_px))};
+}
+
 Picker::Picker(Device& device, gl::ShaderLibrary& shaders)
     : device_(device), pointFrame_(device), lightView_(shaders) {}
 
 void Picker::restart() {
-    if (wanted_) pick(wanted_->x, wanted_->y);
+    if (wanted_ && !stopped_) pick(wanted_->x, wanted_->y);
 }
 
 bool Picker::busy() const {
-    return wanted_ &&
+    return wanted_ && !stopped_ &&
            (!located_ || (wanted_->hasSurface &&
                           (!wanted_->truth || wanted_->answers.size() < techniqueCatalog().size())));
 }
 
 void Picker::step(const FrameRenderer& frame, const Side& side, const Document& document, std::size_t light,
-                  TechniqueBank& techniques, const ReferenceScene* traced) {
+                  const std::string& first, TechniqueBank& techniques, const ReferenceScene* traced) {
     if (!wanted_) return;
     const View& view = frame.gbuffer().view();
     if (wanted_->x >= view.width_px || wanted_->y >= view.height_px) return clear();
@@ -53,26 +65,25 @@ void Picker::step(const FrameRenderer& frame, const Side& side, const Document& 
         if (wanted_->hasSurface && light < lights.size()) lookAtLight(document, lights[light]);
     }
     if (!wanted_->hasSurface || light >= lights.size()) return;
-    if (!wanted_->truth && traced != nullptr) trace(frame, lights[light], *traced);
-    const std::size_t next = wanted_->answers.size();
-    if (next < techniqueCatalog().size()) {
-        ask(frame, lights[light], std::string(techniqueCatalog()[next].name), techniques);
+    std::vector<std::string> names;
+    if (first != referenceName) names.push_back(first);
+    for (const TechniqueInfo& info : techniqueCatalog()) {
+        if (info.name != first) names.emplace_back(info.name);
     }
+    const std::size_t next = wanted_->answers.size();
+    if (next < names.size()) ask(frame, lights[light], names[next], techniques);
+    if (!wanted_->truth && traced != nullptr) trace(frame, lights[light], *traced);
 }
 
 void Picker::locate(const FrameRenderer& frame, const Side& side) {
-    const View& view = frame.gbuffer().view();
     Pick& pick = *wanted_;
-    const float depth = readPixel(view.depthTexture, pick.x, pick.y, view.height_px, GL_DEPTH_COMPONENT).r;
-    pick.hasSurface = depth > 0;
-    if (!pick.hasSurface) return;
-    const CameraView& camera = frame.camera();
-    const glm::dvec4 clip((pick.x + 0.5) / view.width_px * 2 - 1, 1 - (pick.y + 0.5) / view.height_px * 2,
-                          depth, 1);
-    const glm::dvec4 pos = glm::inverse(camera.clipFromView * camera.viewFromWorld) * clip;
-    pick.posWorld = glm::vec3(glm::dvec3(pos) / pos.w);
-    pick.normalWorld = glm::vec3(readPixel(view.normalTexture, pick.x, pick.y, view.height_px));
-    pick.illuminance_lux = readPixel(side.illuminance.name(), pick.x, pick.y, view.height_px).r;
+    const std::optional<SurfacePoint> surface = surfaceAt(frame, pick.x, pick.y);
+    pick.hasSurface = surface.has_value();
+    if (!surface) return;
+    pick.posWorld = surface->posWorld;
+    pick.normalWorld = surface->normalWorld;
+    pick.illuminance_lux =
+        readPixel(side.illuminance.name(), pick.x, pick.y, frame.gbuffer().view().height_px).r;
 }
 
 void Picker::lookAtLight(const Document& document, const Light& light) {

@@ -11,7 +11,14 @@
 
 namespace penumbra::studio::viewer {
 
-/// What is known of the picked pixel; grows by a technique a frame.
+/// A place on what a frame shows.
+struct SurfacePoint {
+    glm::vec3 posWorld{0}, normalWorld{0, 1, 0};
+};
+/// At a pixel, from the upper left; nothing where no surface is. Waits for the device.
+std::optional<SurfacePoint> surfaceAt(const FrameRenderer& frame, int x, int y);
+
+/// What is known of the picked pixel; grows by a technique a frame, the one that is shown first.
 struct Pick {
     int x = 0, y = 0;  ///< from the upper left
     bool hasSurface = false;
@@ -32,19 +39,21 @@ class Picker {
 
     void pick(int x, int y) {
         wanted_ = Pick{.x = x, .y = y};
-        located_ = false;
+        located_ = stopped_ = false;
     }
     void clear() { wanted_.reset(); }
+    /// What is known by now is all.
+    void stop() { stopped_ = true; }
     /// Everything is asked again, at the same pixel.
     void restart();
 
     const std::optional<Pick>& result() const { return wanted_; }
     bool busy() const;
 
-    /// The next step: the position, the light's view, a technique, or the truth once `traced` is ready.
-    /// `frame` shows the view that the pixel is of.
+    /// The next step: the position, the light's view, a technique (`first` before all others), or the truth
+    /// once `traced` is ready. `frame` shows the view that the pixel is of.
     void step(const FrameRenderer& frame, const Side& side, const Document& document, std::size_t light,
-              TechniqueBank& techniques, const ReferenceScene* traced);
+              const std::string& first, TechniqueBank& techniques, const ReferenceScene* traced);
 
     /// What the point sees looking at the light, the light in its middle; valid once the position is known.
     const gl::Texture& lightView() const { return lightView_.texture(); }
@@ -60,7 +69,7 @@ class Picker {
     FrameRenderer pointFrame_;
     Canvas lightView_;
     std::optional<Pick> wanted_;
-    bool located_ = false;
+    bool located_ = false, stopped_ = false;
 };
 
 }  // namespace penumbra::studio::viewer

@@ -5,9 +5,9 @@ namespace penumbra::studio::viewer {
 
 void RefinedPicture::draw(const Document& document, const Camera& camera, int width_px, int height_px,
                           const std::vector<std::string>& names, TechniqueBank& techniques, std::size_t last,
-                          float exposureValue) {
+                          std::optional<float> exposureValue) {
     frame_.setExposure(exposureValue);
-    sides_.draw(document, camera, samplesPerAxis * width_px, samplesPerAxis * height_px);
+    sides_.draw(document, camera, width_px, height_px);
     sides_.light(0, document, names, techniques, nullptr, last);
 }
 

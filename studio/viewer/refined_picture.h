@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of side A once more, for a view at rest: each pixel the mean of four samples of shading and
-// visibility.
+// The picture of side A once more, for a view at rest: at the window's full size, each pixel the mean of up
+// to four samples of shading and visibility.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,19 +14,22 @@ namespace penumbra::studio::viewer {
 
 class RefinedPicture {
   public:
-    static constexpr int samplesPerAxis = 2;
+    static constexpr int mostSamplesPerAxis = 2;
 
     /// `shaderSourceDirectory` as in DeviceOptions.
     RefinedPicture(Device& device, const std::filesystem::path& shaderSourceDirectory)
         : frame_(device, shaderSourceDirectory), sides_(device, frame_) {}
 
-    /// Draws it for a canvas of that size, with technique `names[i]` for light i, none of them the reference.
+    /// Draws it with so many samples, with technique `names[i]` for light i, none of them the reference.
+    /// Exposure as FrameRenderer::setExposure has it.
     void draw(const Document& document, const Camera& camera, int width_px, int height_px,
               const std::vector<std::string>& names, TechniqueBank& techniques, std::size_t last,
-              float exposureValue);
+              std::optional<float> exposureValue);
 
-    /// Two texels a pixel along each axis; shown with a linear filter they are averaged.
+    /// A texel a sample; shown with a linear filter they are averaged.
     const gl::Texture& texture() const { return sides_.side(0).display; }
+    const Side& side() const { return sides_.side(0); }
+    float exposureValue() const { return frame_.readExposureValue(); }
 
     void reloadShaders() { frame_.reloadShaders(); }
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/viewer/session.h"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "studio/frame/shaders.h"
+#include "studio/viewer/canvas_io.h"
+#include "studio/viewer/light_editing.h"
 #include "studio/viewer/shaders.h"
 #include "studio/workbench/reference_inputs.h"
 
@@ -21,6 +24,52 @@ gl::ShaderLibrary makeShaders(const std::filesystem::path& sourceDirectory) {
     shaders.add(frameShaders());  // the shapes of lights are theirs
     shaders.add(viewerShaders());
     return shaders;
+}
+
+/// Of illuminance: from what a few pixels in a hundred fall below to what next to none exceeds, on nice
+/// levels. Where logarithmic at most four decades, else from 0.
+ValueRange rangeThatShows(std::vector<float> lux, bool logarithmic) {
+    std::erase_if(lux, [](float value) { return !(value > 0) || !std::isfinite(value); });
+    if (lux.empty()) return niceRange(0, logarithmic);
+    std::ranges::sort(lux);
+    const auto at = [&](double share) { return lux[std::size_t(share * double(lux.size() - 1))]; };
+    constexpr double low = 0.02, high = 0.995;
+    ValueRange range = niceRange(at(high), logarithmic);
+    if (!logarithmic) return range;
+    constexpr float decades = 1e-4f, narrowest = 0.2f;
+    const float least = std::clamp(at(low), decades * range.max, narrowest * range.max);
+    const std::vector<float> below = niceLevels(0.1f * least, least);
+    range.min = below.empty() ? least : below.back();
+    return range;
+}
+
+/// A number for each line in about every hundredth part of the picture, so far apart that they can be read.
+std::vector<IsolineNumber> numbersOn(const Image& levels) {
+    constexpr int parts = 9;
+    const int block = std::max({levels.width_px, levels.height_px, parts}) / parts;
+    std::vector<IsolineNumber> numbers;
+    for (int top = 0; top < levels.height_px; top += block) {
+        for (int left = 0; left < levels.width_px; left += block) {
+            const glm::vec2 middle(float(left) + 0.5f * float(block), float(top) + 0.5f * float(block));
+            std::optional<IsolineNumber> nearest;
+            float nearest_px = 0.5f * float(block);
+            for (int y = top; y < std::min(top + block, levels.height_px); ++y) {
+                for (int x = left; x < std::min(left + block, levels.width_px); ++x) {
+                    if (levels.at(x, y) == noIsoline) continue;
+                    const float distance_px = glm::distance(middle, glm::vec2(x, y));
+                    if (distance_px >= nearest_px) continue;
+                    nearest_px = distance_px;
+                    nearest = IsolineNumber{x, y, levels.at(x, y)};
+                }
+            }
+            const auto isNear = [&](const IsolineNumber& other) {
+                return glm::distance(glm::vec2(other.x, other.y), glm::vec2(nearest->x, nearest->y)) <
+                       0.6f * float(block);
+            };
+            if (nearest && std::ranges::none_of(numbers, isNear)) numbers.push_back(*nearest);
+        }
+    }
+    return numbers;
 }
 
 class Collector final : public InspectionVisitor {
@@ -40,7 +89,8 @@ Session::Session(const std::filesystem::path& shaderSourceDirectory)
       canvas_(shaders_),
       inspection_(shaders_),
       shaderSourceDirectory_(shaderSourceDirectory),
-      picker_(device_, shaders_) {}
+      picker_(device_, shaders_),
+      grid_(device_) {}
 
 void Session::open(const std::string& nameOrPath, const OpenOptions& options) {
     auto opened = std::make_unique<Document>(device_, nameOrPath, options);
@@ -50,6 +100,9 @@ void Session::open(const std::string& nameOrPath, const OpenOptions& options) {
     casters_.reset();
     picker_.clear();
     choices_.techniqueOfLight.clear();
+    choices_.bookmarks.clear();
+    choices_.grid.reset();
+    grid_.forget();
     choices_.light = 0;
     fitIlluminance();
     useSceneCamera(0);
@@ -81,6 +134,42 @@ void Session::useSceneCamera(int index) {
     changedView();
 }
 
+void Session::keepView() {
+    CameraControl view = control_;
+    if (choices_.sceneCamera >= 0) view.startFrom(camera(), document_->bounds());
+    const auto isTaken = [&](const std::string& name) {
+        return std::ranges::count(choices_.bookmarks, name, &Bookmark::name) > 0;
+    };
+    std::string name;
+    for (std::size_t number = choices_.bookmarks.size() + 1; name.empty() || isTaken(name); ++number)
+        name = fmt::format("View {}", number);
+    choices_.bookmarks.push_back({name, view.lookAt()});
+}
+
+void Session::goTo(const Bookmark& bookmark) {
+    freeCamera().lookFrom(bookmark.look);
+    picker_.clear();
+    changedView();
+}
+
+SurfacePoint Session::lookedAt() const {
+    if (const auto surface = surfaceAt(frame_, width_px_ / 2, height_px_ / 2)) return *surface;
+    return {document_->bounds().center(), {0, 1, 0}};
+}
+
+void Session::addLight() {
+    const SurfacePoint looked = lookedAt();
+    const glm::vec3 eye(camera().worldFromCamera[3]);
+    constexpr float ofTheWay = 0.5f, leastShare = 1e-3f;
+    const float most_m = std::max(document_->bounds().radius(), leastShare);
+    const float distance_m =
+        std::clamp(ofTheWay * glm::distance(eye, looked.posWorld), leastShare * most_m, most_m);
+    std::vector<Light> lights = document_->moment().lights;
+    lights.push_back(newLight(looked.posWorld, looked.normalWorld, distance_m));
+    choices_.light = lights.size() - 1;
+    editLights(std::move(lights));
+}
+
 void Session::setTime(double time_s) {
     document_->setTime(time_s);
     changedView();
@@ -105,7 +194,9 @@ Work Session::work() {
              .technique = choices_.technique,
              .other = choices_.other,
              .techniqueOfLight = choices_.techniqueOfLight,
-             .parameters = techniques_.allChanges()};
+             .parameters = techniques_.allChanges(),
+             .bookmarks = choices_.bookmarks,
+             .grid = choices_.grid};
     std::erase_if(now.parameters, [](const auto& technique) { return technique.second.empty(); });
     return now;
 }
@@ -114,6 +205,8 @@ void Session::restore(const Work& work) {
     choices_.technique = work.technique;
     choices_.other = work.other;
     choices_.techniqueOfLight = work.techniqueOfLight;
+    choices_.bookmarks = work.bookmarks;
+    choices_.grid = work.grid;
     for (const auto& [name, values] : techniques_.allChanges()) {
         if (!work.parameters.contains(name)) techniques_.set(name, {});
     }
@@ -174,14 +267,20 @@ bool Session::update(int width_px, int height_px) {
         takeTruth();
         const bool changed = canvasStale_;
         if (changed) {
-            isRefined_ = false;
+            refinedSamples_ = 0;
             render(width_px, height_px);
             milliseconds_ = 1e3 * std::chrono::duration<double>(Clock::now() - start).count();
+            refiningCost_.drawn(milliseconds_);
         }
         if (picker_.busy()) {
             const auto traced = reference_.scene();
-            picker_.step(frame_, sides_.side(0), *document_, choices_.light, techniques_, traced.get());
+            const std::vector<Light>& lights = document_->moment().lights;
+            const std::string first =
+                choices_.light < lights.size() ? techniqueOf(lights[choices_.light]) : choices_.technique;
+            picker_.step(frame_, sides_.side(0), *document_, choices_.light, first, techniques_,
+                         traced.get());
         }
+        grid_.update(*document_, choices_.grid, handsMove_);
         if (referenceStale_ && wantsTruth() && Clock::now() - changedAt_ >= settling) startReference();
         return changed;
     } catch (const std::exception& error) {
@@ -194,21 +293,46 @@ bool Session::update(int width_px, int height_px) {
     }
 }
 
-bool Session::refine() {
-    const bool fits =
-        RefinedPicture::samplesPerAxis * std::max(width_px_, height_px_) <= device_.maxTextureSize_px();
-    if (canvasStale_ || !problem_.empty() || !fits || choices_.shown != Shown::picture || showsOther() ||
-        showsTruth(0))
-        return false;
+void Session::refine(int width_px, int height_px, double budget_ms) {
+    if (canvasStale_ || !problem_.empty() || isRefined() || choices_.shown != Shown::picture ||
+        showsOther() || showsTruth(0))
+        return;
     try {
         if (!refined_) refined_ = std::make_unique<RefinedPicture>(device_, shaderSourceDirectory_);
-        refined_->draw(*document_, camera(), width_px_, height_px_, techniquesOfLights(), techniques_,
-                       choices_.light, frame_.readExposureValue());
-        isRefined_ = true;
+        const double pixels = double(width_px) * height_px / (double(width_px_) * height_px_);
+        for (const int perAxis : {RefinedPicture::mostSamplesPerAxis, 1}) {
+            const bool isFiner = perAxis * width_px > width_px_;
+            const bool fits = perAxis * std::max(width_px, height_px) <= device_.maxTextureSize_px();
+            const int samples = perAxis * perAxis;
+            const auto probe = [&](int attempt) { return probeRefined(attempt); };
+            if (!isFiner || !fits || !refiningCost_.isWithin(budget_ms, pixels * samples, probe)) continue;
+            refined_->draw(*document_, camera(), perAxis * width_px, perAxis * height_px,
+                           techniquesOfLights(), techniques_, choices_.light, frame_.readExposureValue());
+            refinedSamples_ = samples;
+            return;
+        }
     } catch (const std::exception& error) {
         problem_ = error.what();
     }
-    return isRefined_;
+}
+
+Session::KeptPicture Session::drawToKeep(PictureSize size) {
+    if ((size.width_px == width_px_ && size.height_px == height_px_) || showsTruth(0))
+        return {sides_.side(0), width_px_, height_px_, frame_.readExposureValue()};
+    if (!refined_) refined_ = std::make_unique<RefinedPicture>(device_, shaderSourceDirectory_);
+    refinedSamples_ = 0;
+    refined_->draw(*document_, camera(), size.width_px, size.height_px, techniquesOfLights(), techniques_,
+                   choices_.light, choices_.exposureValue);
+    return {refined_->side(), size.width_px, size.height_px, refined_->exposureValue()};
+}
+
+double Session::probeRefined(int attempt) {
+    const auto start = Clock::now();
+    // Another size each time: of the same picture techniques may have kept what they need.
+    refined_->draw(*document_, camera(), width_px_ + attempt, height_px_, techniquesOfLights(), techniques_,
+                   choices_.light, frame_.readExposureValue());
+    glFinish();
+    return 1e3 * std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 void Session::render(int width_px, int height_px) {
@@ -316,7 +440,7 @@ CanvasOptions Session::canvasOptions() const {
             options.range =
                 choices_.largestLux > 0
                     ? ValueRange{choices_.logarithmic ? 1e-3f * choices_.largestLux : 0, choices_.largestLux}
-                    : niceRange(largestIlluminance_lux_, choices_.logarithmic);
+                    : fittedLux_.value_or(niceRange(0, choices_.logarithmic));
             break;
     }
     return options;
@@ -325,11 +449,24 @@ CanvasOptions Session::canvasOptions() const {
 void Session::compose() {
     const Side& a = sides_.side(0);
     const Side& b = showsOther() ? sides_.side(1) : a;
-    if (choices_.shown == Shown::illuminance && choices_.largestLux <= 0 && largestIlluminance_lux_ <= 0) {
-        const Image lux = readTexture(a.illuminance.name(), width_px_, height_px_, 1);
-        largestIlluminance_lux_ = std::ranges::max(lux.values);
-    }
+    if (choices_.shown == Shown::illuminance && choices_.largestLux <= 0 && !fittedLux_)
+        fittedLux_ = rangeThatShows(readTexture(a.illuminance.name(), width_px_, height_px_, 1).values,
+                                    choices_.logarithmic);
     canvas_.compose(frame_, a, b, canvasOptions());
+    numberIsolines();
+}
+
+void Session::numberIsolines() {
+    isolineNumbers_.clear();
+    if (choices_.shown != Shown::illuminance || !choices_.isolines) return;
+    const Image levels = readTexture(canvas_.isolines().name(), width_px_, height_px_, 1);
+    isolineNumbers_ = numbersOn(levels);
+}
+
+bool Session::isCertain(double error) const {
+    constexpr double share = 0.1;
+    return truth_ && choices_.light < truth_->lights.size() &&
+           truth_->lights[choices_.light].noise_rms < share * error;
 }
 
 std::vector<InspectedTexture> Session::inspected() {

@@ -13,8 +13,11 @@
 #include "studio/metrics/visibility_metrics.h"
 #include "studio/viewer/camera_control.h"
 #include "studio/viewer/canvas.h"
+#include "studio/viewer/measured_grid.h"
 #include "studio/viewer/picker.h"
 #include "studio/viewer/refined_picture.h"
+#include "studio/viewer/refining_cost.h"
+#include "studio/viewer/settings.h"
 #include "studio/viewer/sides.h"
 #include "studio/workbench/workbench.h"
 
@@ -34,24 +37,35 @@ struct Choices {
     Shown shown = Shown::picture;
     float differenceRange = 0.2f;  ///< visibility at which the colours of errors end
     float largestLux = 0;          ///< end of the illuminance colours; 0: what the picture needed when fitted
-    bool logarithmic = false, isolines = true;
+    std::vector<Bookmark> bookmarks;  ///< views that were kept
+    std::optional<GridSpec> grid;     ///< that is measured on
+    bool logarithmic = true, isolines = true;
     float resolutionScale = 1;
     std::optional<float> exposureValue;  ///< see FrameRenderer::setExposure; none: automatic
     int sceneCamera = 0;                 ///< of the moment's; -1: the free one
 };
 
-/// What undo and redo bring back: what the user has done to lights and techniques.
+/// A line of equal illuminance carries its number here.
+struct IsolineNumber {
+    int x = 0, y = 0;  ///< pixels from the upper left
+    float lux = 0;
+};
+
+/// What undo and redo bring back: what the user has done to lights, techniques, bookmarks and grids.
 struct Work {
     std::shared_ptr<const EditedLights::State> lights;
     std::size_t light = 0;  ///< the one in question
     std::string technique, other;
     std::map<std::string, std::string> techniqueOfLight;
     std::map<std::string, ParameterValues> parameters;  ///< that differ from the defaults, by technique
+    std::vector<Bookmark> bookmarks;
+    std::optional<GridSpec> grid;
 
     /// The light in question alone is no step.
     bool operator==(const Work& with) const {
         return lights == with.lights && technique == with.technique && other == with.other &&
-               techniqueOfLight == with.techniqueOfLight && parameters == with.parameters;
+               techniqueOfLight == with.techniqueOfLight && parameters == with.parameters &&
+               bookmarks == with.bookmarks && grid == with.grid;
     }
 };
 
@@ -84,6 +98,15 @@ class Session {
     /// The camera that hands move; begins where the scene's camera in use stands.
     CameraControl& freeCamera();
     void useSceneCamera(int index);
+    /// Keeps the view under a name that is not taken; goes to one that was kept.
+    void keepView();
+    void goTo(const Bookmark& bookmark);
+    /// Where one looks: the surface in the middle of the picture, else the scene's middle, seen from above.
+    /// Waits for the device.
+    SurfacePoint lookedAt() const;
+    /// Adds a light that faces where one looks, from no farther than halfway to the eye; it is in question
+    /// now.
+    void addLight();
     const CameraControl& cameraControl() const { return control_; }
 
     void setTime(double time_s);
@@ -100,16 +123,33 @@ class Session {
     /// Colours are others now.
     void changedCanvas() { canvasStale_ = true; }
 
+    /// The grid of Choices::grid, measured. Brought up to date by update(), roughly while hands move.
+    const MeasuredGrid& grid() const { return grid_; }
+    void setHandsMove(bool areMoving) { handsMove_ = areMoving; }
+
     /// Brings everything up to date at this size; cheap where nothing has changed. Returns whether the canvas
     /// was made anew. What a technique or the device throws becomes problem().
     bool update(int width_px, int height_px);
 
-    /// Draws the picture anew with four samples a pixel, until something changes. Not for two sides, nor for
-    /// numbers, nor for what rays are traced for: false.
-    bool refine();
-    bool isRefined() const { return isRefined_; }
+    /// Draws the picture anew at `width_px` x `height_px`, which the window has room for, with four samples a
+    /// pixel, or with one where no more can be drawn within `budget_ms`; until something changes. Does
+    /// nothing where neither can, nor for two sides, for numbers, or for what rays are traced for.
+    void refine(int width_px, int height_px, double budget_ms);
+    /// Side A, drawn at a size for a file. Neither what is shown nor the truth is touched, unless a light is
+    /// shown by the truth: that there is of one size, the picture's. Throws what techniques throw.
+    struct KeptPicture {
+        const Side& side;
+        int width_px, height_px;
+        float exposureValue;
+    };
+    KeptPicture drawToKeep(PictureSize size);
+    /// Whether side A shows the truth of some light.
+    bool showsTruth() const { return showsTruth(0); }
+    bool isRefined() const { return refinedSamples_ > 0; }
+    /// A pixel's, of the refined picture; 0: it is not.
+    int refinedSamples() const { return refinedSamples_; }
     /// The canvas, or the refined picture.
-    const gl::Texture& shown() const { return isRefined_ ? refined_->texture() : canvas_.texture(); }
+    const gl::Texture& shown() const { return isRefined() ? refined_->texture() : canvas_.texture(); }
 
     int width_px() const { return width_px_; }
     int height_px() const { return height_px_; }
@@ -128,9 +168,13 @@ class Session {
     std::shared_ptr<const ProgressiveReference::Level> truth() const { return truth_; }
     /// Range of the colours shown, and of what.
     CanvasOptions canvasOptions() const;
+    /// Whether the truth's noise leaves a difference as large as this worth telling: it is below a tenth of
+    /// it.
+    bool isCertain(double error) const;
+    const std::vector<IsolineNumber>& isolineNumbers() const { return isolineNumbers_; }
     /// The colours of illuminance shall span what the next picture needs.
     void fitIlluminance() {
-        largestIlluminance_lux_ = 0;
+        fittedLux_.reset();
         changedCanvas();
     }
 
@@ -162,6 +206,8 @@ class Session {
     void takeTruth();
     void judge();
     void compose();
+    void numberIsolines();
+    double probeRefined(int attempt);
 
     Device device_;
     gl::ShaderLibrary shaders_;
@@ -171,7 +217,8 @@ class Session {
     Canvas canvas_, inspection_;
     std::filesystem::path shaderSourceDirectory_;
     std::unique_ptr<RefinedPicture> refined_;  ///< made when it is first wanted
-    bool isRefined_ = false;
+    int refinedSamples_ = 0;
+    RefiningCost refiningCost_;
     Picker picker_;
     std::unique_ptr<Document> document_;
     ProgressiveReference reference_;
@@ -188,7 +235,10 @@ class Session {
     std::uint64_t castersRevision_ = 0;
     std::shared_ptr<const ProgressiveReference::Level> truth_;
     std::array<std::optional<VisibilityMetrics>, 2> metrics_;
-    float largestIlluminance_lux_ = 0;
+    std::optional<ValueRange> fittedLux_;
+    std::vector<IsolineNumber> isolineNumbers_;
+    MeasuredGrid grid_;
+    bool handsMove_ = false;
     double milliseconds_ = 0;
     std::string problem_, shaderProblem_;
 };

@@ -4,8 +4,10 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "studio/image/atomic_file.h"
 
@@ -37,6 +39,40 @@ ParameterValues parametersFrom(const Json& json) {
     return values;
 }
 
+Json toJson(const RecentFile& file) {
+    if (file.lights.empty()) return file.scene;
+    return {{"scene", file.scene}, {"lights", file.lights}};
+}
+
+RecentFile recentFrom(const Json& json) {
+    if (json.is_string()) return {json.get<std::string>(), ""};
+    return {json.at("scene").get<std::string>(), json.at("lights").get<std::string>()};
+}
+
+Json toJson(const Bookmark& bookmark) {
+    const LookAt& look = bookmark.look;
+    Json json = {{"name", bookmark.name},
+                 {"eye", {look.eye.x, look.eye.y, look.eye.z}},
+                 {"target", {look.target.x, look.target.y, look.target.z}},
+                 {"fov", look.fov_deg}};
+    if (look.height_m) json["height"] = *look.height_m;
+    return json;
+}
+
+Bookmark bookmarkFrom(const Json& json) {
+    const auto vector = [&](const char* key) {
+        const auto values = json.at(key).get<std::array<float, 3>>();
+        return glm::vec3(values[0], values[1], values[2]);
+    };
+    Bookmark bookmark{
+        json.at("name").get<std::string>(),
+        {.eye = vector("eye"), .target = vector("target"), .fov_deg = json.at("fov").get<float>()}};
+    if (json.contains("height")) bookmark.look.height_m = json.at("height").get<float>();
+    if (!(glm::distance(bookmark.look.eye, bookmark.look.target) > 0))
+        throw std::invalid_argument("a view looks at another point than its own");
+    return bookmark;
+}
+
 Settings settingsFrom(const Json& json) {
     Settings settings;
     const auto read = [&](const char* key, auto& value) {
@@ -49,7 +85,17 @@ Settings settingsFrom(const Json& json) {
     read("reference_runs", settings.referenceRuns);
     read("technique", settings.technique);
     read("other", settings.other);
-    read("recent_files", settings.recentFiles);
+    if (const auto found = json.find("recent_files"); found != json.end()) {
+        for (const Json& file : *found) settings.recentFiles.push_back(recentFrom(file));
+    }
+    if (const auto found = json.find("bookmarks"); found != json.end()) {
+        for (const auto& [scene, bookmarks] : found->items()) {
+            for (const Json& bookmark : bookmarks)
+                settings.bookmarks[scene].push_back(bookmarkFrom(bookmark));
+        }
+    }
+    read("picture_width", settings.pictureWidth_px);
+    read("picture_height", settings.pictureHeight_px);
     read("seen_help", settings.seenHelp);
     if (const auto found = json.find("parameters"); found != json.end()) {
         for (const auto& [name, values] : found->items()) settings.parameters[name] = parametersFrom(values);
@@ -66,15 +112,17 @@ Settings settingsFrom(const Json& json) {
     settings.referenceSamples = std::clamp(settings.referenceSamples, 4, 65536);
     // Written so that what is not a number becomes the default.
     if (!(settings.resolutionScale >= 0.125f && settings.resolutionScale <= 2)) settings.resolutionScale = 0;
+    settings.pictureWidth_px = std::clamp(settings.pictureWidth_px, -1, 16384);
+    settings.pictureHeight_px = std::clamp(settings.pictureHeight_px, -1, 16384);
     settings.recentFiles.resize(std::min(settings.recentFiles.size(), maxRecent));
     return settings;
 }
 
 }  // namespace
 
-void Settings::addRecent(const std::string& path) {
-    std::erase(recentFiles, path);
-    recentFiles.insert(recentFiles.begin(), path);
+void Settings::addRecent(const RecentFile& file) {
+    std::erase(recentFiles, file);
+    recentFiles.insert(recentFiles.begin(), file);
     recentFiles.resize(std::min(recentFiles.size(), maxRecent));
 }
 
@@ -107,10 +155,17 @@ void saveSettings(const Settings& settings, const fs::path& file) {
                  {"reference_runs", settings.referenceRuns},
                  {"technique", settings.technique},
                  {"other", settings.other},
-                 {"recent_files", settings.recentFiles},
+                 {"recent_files", Json::array()},
+                 {"bookmarks", Json::object()},
+                 {"picture_width", settings.pictureWidth_px},
+                 {"picture_height", settings.pictureHeight_px},
                  {"parameters", Json::object()},
                  {"presets", Json::object()},
                  {"seen_help", settings.seenHelp}};
+    for (const RecentFile& recent : settings.recentFiles) json["recent_files"].push_back(toJson(recent));
+    for (const auto& [scene, bookmarks] : settings.bookmarks) {
+        for (const Bookmark& bookmark : bookmarks) json["bookmarks"][scene].push_back(toJson(bookmark));
+    }
     for (const auto& [name, values] : settings.parameters) json["parameters"][name] = toJson(values);
     for (const auto& [technique, presets] : settings.presets) {
         for (const auto& [name, values] : presets) json["presets"][technique][name] = toJson(values);

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <imgui_stdlib.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "studio/errors.h"
@@ -56,9 +56,33 @@ Viewer::Viewer(ViewerOptions options)
     windowState_.showsWelcome = options_.scene.empty();
     session_.open(options_.scene.empty() ? welcomeScene : options_.scene, options_.open);
     startAsAsked();
+    session_.choices().bookmarks = settings_.bookmarks[openFile().scene];
     history_.start(session_.work());
-    if (!options_.scene.empty()) settings_.addRecent(options_.scene);
-    window_.setTitle("Penumbra - " + session_.document().nameOrPath());
+    if (!options_.scene.empty()) follow();
+}
+
+RecentFile Viewer::openFile() const {
+    const Document& document = session_.document();
+    const auto absolute = [](const std::string& file) {
+        std::error_code error;
+        const std::filesystem::path path = std::filesystem::canonical(file, error);
+        return error ? file : path.string();
+    };
+    RecentFile file{document.isBuiltin() ? document.nameOrPath() : absolute(document.nameOrPath()), ""};
+    if (document.options().lightsFile) file.lights = absolute(document.options().lightsFile->string());
+    return file;
+}
+
+void Viewer::follow() {
+    settings_.addRecent(openFile());
+}
+
+std::string Viewer::title() const {
+    const Document& document = session_.document();
+    std::string title = "Penumbra - " + document.nameOrPath();
+    if (document.options().lightsFile)
+        title += fmt::format(" with {}", document.options().lightsFile->filename().string());
+    return document.lights().unsaved() ? title + " *" : title;
 }
 
 void Viewer::startAsAsked() {
@@ -89,6 +113,8 @@ Viewer::~Viewer() {
 
 void Viewer::keepSettings() {
     const Choices& choices = session_.choices();
+    settings_.bookmarks.erase(openFile().scene);
+    if (!choices.bookmarks.empty()) settings_.bookmarks[openFile().scene] = choices.bookmarks;
     settings_.technique = choices.technique;
     settings_.other = choices.other;
     settings_.resolutionScale = choices.resolutionScale;
@@ -147,6 +173,10 @@ bool Viewer::frame(bool wait) {
     if (!mouse_.busy() && !ImGui::IsAnyItemActive()) history_.note(session_.work());
     windowState_.canUndo = history_.canUndo();
     windowState_.canRedo = history_.canRedo();
+    if (const std::string now = title(); now != shownTitle_) {
+        shownTitle_ = now;
+        window_.setTitle(now);
+    }
     updatePicture();
     record();
     drawCanvas();
@@ -156,12 +186,17 @@ bool Viewer::frame(bool wait) {
     return true;
 }
 
-void Viewer::open(const std::string& nameOrPath) {
+void Viewer::open(const std::string& nameOrPath, const std::string& lights) {
     attempt([&] {
-        session_.open(nameOrPath);
+        OpenOptions options;
+        if (!lights.empty()) options.lightsFile = lights;
+        const RecentFile before = openFile();
+        const std::vector<Bookmark> bookmarks = session_.choices().bookmarks;
+        session_.open(nameOrPath, options);
+        settings_.bookmarks[before.scene] = bookmarks;
+        session_.choices().bookmarks = settings_.bookmarks[openFile().scene];
         history_.start(session_.work());
-        settings_.addRecent(nameOrPath);
-        window_.setTitle("Penumbra - " + nameOrPath);
+        follow();
         windowState_.playing = false;
         const std::vector<std::string>& warnings = session_.document().scene().warnings;
         say(warnings.empty() ? "opened " + nameOrPath : fmt::format("{}", fmt::join(warnings, "\n")));
@@ -182,6 +217,18 @@ void Viewer::loadProfile(const std::string& file) {
                                                glm::vec3(1), lights[chosen]);
         session_.editLights(std::move(lights));
         say(note.empty() ? "loaded " + file : note);
+    });
+}
+
+void Viewer::loadTexture(const std::string& file) {
+    attempt([&] {
+        std::vector<Light> lights = session_.document().moment().lights;
+        const std::size_t chosen = session_.choices().light;
+        if (chosen >= lights.size() || lights[chosen].shape.shape != LightShape::rect)
+            throw InputError("a picture is shown by a rectangle: choose such a light");
+        lights[chosen].texture = session_.document().addTexture(file);
+        session_.editLights(std::move(lights));
+        say("loaded " + file);
     });
 }
 
@@ -219,15 +266,16 @@ void Viewer::drawPanels(Requests& requests) {
                      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                          ImGuiWindowFlags_NoBringToFrontOnFocus);
         drawAnimationPanel(ui_, session_, windowState_, recorder_, requests);
-        drawTechniquePanel(ui_, session_, settings_, windowState_);
-        drawColorsPanel(ui_, session_);
-        drawComparePanel(ui_, session_);
         drawLightsPanel(ui_, session_, windowState_, requests);
+        drawColorsPanel(ui_, session_);
+        drawMeasurePanel(ui_, session_, windowState_);
+        drawTechniquePanel(ui_, session_, settings_, windowState_);
+        drawComparePanel(ui_, session_);
         drawInsightPanel(ui_, session_, windowState_, frameTimes_ms_);
         ImGui::End();
     }
     drawHelp(ui_, windowState_);
-    drawOpenDialog(requests);
+    windowState_.browser.draw(ui_, requests);
     drawLeavingDialog(requests);
 }
 
@@ -256,27 +304,13 @@ void Viewer::drawLeavingDialog(Requests& requests) {
     ImGui::EndPopup();
 }
 
-void Viewer::drawOpenDialog(Requests& requests) {
-    if (std::exchange(windowState_.asksForPath, false)) ImGui::OpenPopup("Open a scene");
-    if (!ImGui::BeginPopupModal("Open a scene", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
-    ui_.note("A glTF file (.gltf, .glb) or the name of a built-in scene. Files can be dropped, too.");
-    ImGui::SetNextItemWidth(420 * ui_.scale());
-    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-    const bool entered =
-        ImGui::InputText("##path", &windowState_.openPath, ImGuiInputTextFlags_EnterReturnsTrue);
-    if (ui_.button("Open") || entered) {
-        requests.open = windowState_.openPath;
-        ImGui::CloseCurrentPopup();
-    }
-    ImGui::SameLine();
-    if (ui_.button("Cancel")) ImGui::CloseCurrentPopup();
-    ImGui::EndPopup();
-}
-
 std::filesystem::path Viewer::freshPictureName() const {
     const std::string stem = std::filesystem::path(session_.document().nameOrPath()).stem().string();
+    const bool isBuiltin = session_.document().isBuiltin();
+    const std::filesystem::path folder =
+        isBuiltin ? options_.pictures : std::filesystem::path(openFile().scene).parent_path();
     for (int number = 1;; ++number) {
-        std::filesystem::path file = options_.pictures / fmt::format("{}.{:03}.png", stem, number);
+        std::filesystem::path file = folder / fmt::format("{}.{:03}.png", stem, number);
         if (!std::filesystem::exists(file)) return file;
     }
 }
@@ -291,6 +325,14 @@ bool Viewer::saveLights() {
     return !session_.document().lights().unsaved();
 }
 
+void Viewer::saveLightsAs(const std::string& file) {
+    attempt([&] {
+        session_.document().saveLightsAs(file);
+        follow();
+        say("lights saved to " + file);
+    });
+}
+
 void Viewer::undo(const Requests& requests) {
     if (requests.undo && history_.canUndo()) session_.restore(history_.undo());
     if (requests.redo && history_.canRedo()) session_.restore(history_.redo());
@@ -299,8 +341,14 @@ void Viewer::undo(const Requests& requests) {
 void Viewer::carryOut(const Requests& requests) {
     undo(requests);
     if (requests.quit) window_.requestClose();
-    if (requests.open) open(*requests.open);
+    if (requests.open) open(*requests.open, requests.openLights);
     if (requests.profile) loadProfile(*requests.profile);
+    if (requests.texture) loadTexture(*requests.texture);
+    if (requests.addLight) session_.addLight();
+    if (requests.keepView) {
+        session_.keepView();
+        say(fmt::format("kept as {}, under Camera", session_.choices().bookmarks.back().name));
+    }
     if (requests.problem) say(*requests.problem);
     if (requests.frameAll) {
         session_.freeCamera().frame(session_.document().bounds(), place_.size.x / place_.size.y);
@@ -309,27 +357,14 @@ void Viewer::carryOut(const Requests& requests) {
     if (requests.resetCamera) session_.useSceneCamera(0);
     if (requests.reloadShaders) session_.reloadShaders();
     if (requests.saveLights) saveLights();
-    if (requests.copyCommand) {
+    if (requests.saveGrid) {
         attempt([&] {
-            restoreResolution();
-            window_.setClipboard(renderCommand(session_, options_.data));
-            say("copied: the command for this picture");
+            session_.grid().save(session_.document(), *requests.saveGrid);
+            say("saved " + *requests.saveGrid);
         });
     }
-    if (requests.savePicture || requests.saveCanvas) {
-        attempt([&] {
-            restoreResolution();
-            const std::filesystem::path file = freshPictureName();
-            const std::string command = renderCommand(session_, options_.data);
-            if (requests.saveCanvas) {
-                saveCanvas(session_, file, command);
-            } else {
-                savePicture(session_, file, command);
-                savePicture(session_, std::filesystem::path(file).replace_extension(".exr"), command);
-            }
-            say("saved " + file.string());
-        });
-    }
+    if (requests.saveLightsAs) saveLightsAs(*requests.saveLightsAs);
+    takeAway(requests);
     if (requests.record) {
         attempt([&] {
             recorder_.start(windowState_.recording);
@@ -339,9 +374,35 @@ void Viewer::carryOut(const Requests& requests) {
     if (requests.stopRecording) recorder_.stop();
 }
 
+void Viewer::takeAway(const Requests& requests) {
+    if (requests.copyCommand) {
+        attempt([&] {
+            window_.setClipboard(renderCommand(session_, options_.data, keptSize()));
+            say("copied: the command for this picture");
+        });
+    }
+    if (requests.savePicture || requests.saveCanvas) {
+        attempt([&] {
+            restoreResolution();
+            const std::filesystem::path file = freshPictureName();
+            const std::string command = renderCommand(session_, options_.data, keptSize());
+            if (requests.saveCanvas) {
+                saveCanvas(session_, file, command);
+            } else {
+                const Session::KeptPicture picture = session_.drawToKeep(keptSize());
+                savePicture(session_, picture, file, command);
+                savePicture(session_, picture, std::filesystem::path(file).replace_extension(".exr"),
+                            command);
+            }
+            say("saved " + file.string());
+        });
+    }
+}
+
 void Viewer::updatePicture() {
     // While hands move and frames are late, the resolution gives way; at rest it is what was chosen.
     const bool moving = mouse_.busy() || windowState_.playing;
+    session_.setHandsMove(moving || ImGui::IsAnyItemActive());
     const double now_s = glfwGetTime();
     if (moving) movedAt_s_ = now_s;
     const float before = slowDown_;
@@ -349,10 +410,11 @@ void Viewer::updatePicture() {
     const bool drawn = drawPicture();
     constexpr double smallest = 0.3, settling_s = 0.5;
     if (moving || drawn) drawnAt_s_ = now_s;
-    constexpr int samples = RefinedPicture::samplesPerAxis * RefinedPicture::samplesPerAxis;
-    if (!session_.isRefined() && now_s - drawnAt_s_ > settling_s &&
-        samples * session_.milliseconds() <= options_.refine_ms)
-        session_.refine();
+    if (!moving && !recorder_.active() && slowDown_ == 1 && now_s - drawnAt_s_ > settling_s) {
+        const float full = window_.pixelsPerCoordinate();
+        session_.refine(int(std::lround(place_.size.x * full)), int(std::lround(place_.size.y * full)),
+                        options_.refine_ms);
+    }
     if (drawn) {
         frameTimes_ms_.push_back(float(session_.milliseconds()));
         if (frameTimes_ms_.size() > frameHistory) frameTimes_ms_.erase(frameTimes_ms_.begin());
@@ -368,6 +430,15 @@ bool Viewer::drawPicture() {
     return session_.update(int(std::lround(place_.size.x * scale)), int(std::lround(place_.size.y * scale)));
 }
 
+PictureSize Viewer::keptSize() const {
+    if (settings_.pictureWidth_px > 0 && settings_.pictureHeight_px > 0 && !session_.showsTruth())
+        return {settings_.pictureWidth_px, settings_.pictureHeight_px};
+    const bool asShown = settings_.pictureWidth_px < 0 || session_.showsTruth();
+    const float scale = window_.pixelsPerCoordinate() * (asShown ? session_.choices().resolutionScale : 1);
+    return {std::max(int(std::lround(place_.size.x * scale)), 1),
+            std::max(int(std::lround(place_.size.y * scale)), 1)};
+}
+
 void Viewer::restoreResolution() {
     slowDown_ = 1;
     drawPicture();
@@ -376,7 +447,8 @@ void Viewer::restoreResolution() {
 void Viewer::record() {
     if (!recorder_.active() || !session_.complete()) return;
     attempt([&] {
-        recorder_.write(session_, renderCommand(session_, options_.data));
+        recorder_.write(session_,
+                        renderCommand(session_, options_.data, {session_.width_px(), session_.height_px()}));
         if (!recorder_.active()) say("recorded to " + recorder_.plan().folder.string());
     });
 }

@@ -27,9 +27,10 @@ struct ViewerOptions {
     std::filesystem::path settings = settingsFile();
     bool keepsSettings = true;  ///< writes them when it ends
     std::filesystem::path data = dataFolder();
-    std::filesystem::path pictures = std::filesystem::current_path();  ///< where pictures are saved
+    /// Where pictures of built-in scenes are saved; those of files lie beside them.
+    std::filesystem::path pictures = std::filesystem::current_path();
     double late_ms = 120;     ///< a picture that takes longer while hands move is drawn with fewer pixels
-    double refine_ms = 1500;  ///< at rest pixels become the mean of four samples, where that takes no longer
+    double refine_ms = 1500;  ///< at rest a picture is drawn once more, as finely as takes no longer
 };
 
 class Viewer {
@@ -52,6 +53,7 @@ class Viewer {
     const std::vector<PlacedWidget>& widgets() const { return ui_.placed(); }
     const CanvasPlace& canvasPlace() const { return place_; }
     const Recorder& recorder() const { return recorder_; }
+    const std::string& shownTitle() const { return shownTitle_; }
     /// The window as it was drawn last.
     Image screenshot() { return window_.read(); }
 
@@ -68,13 +70,22 @@ class Viewer {
     void stepTime(int frames);
     void advanceTime();
     void drawPanels(Requests& requests);
-    void drawOpenDialog(Requests& requests);
     /// Leaving the scene with lights that are not saved: whether, and how.
     void drawLeavingDialog(Requests& requests);
     void carryOut(const Requests& requests);
     bool saveLights();
+    void saveLightsAs(const std::string& file);
+    /// The light that is chosen shows this picture.
+    void loadTexture(const std::string& file);
+    /// Pictures and commands: as `requests` ask.
+    void takeAway(const Requests& requests);
+    /// What is open now: recent, and in the title.
+    void follow();
+    RecentFile openFile() const;
+    std::string title() const;
+    PictureSize keptSize() const;
     void undo(const Requests& requests);
-    void open(const std::string& nameOrPath);
+    void open(const std::string& nameOrPath, const std::string& lights);
     void updatePicture();
     /// Draws the picture anew where that is needed; true if it was.
     bool drawPicture();
@@ -82,6 +93,7 @@ class Viewer {
     void restoreResolution();
     void drawCanvas();
     void drawOverlay();
+    void drawIsolineNumbers();
     void drawLegend();
     void record();
     void keepSettings();
@@ -102,6 +114,7 @@ class Viewer {
     std::optional<double> recordedTime_s_;  ///< that is being shown for the recorder
     ShaderWatch shaderWatch_;
     History<Work> history_;
+    std::string shownTitle_;
     Requests keyRequests_;
     CanvasPlace place_;
     std::vector<float> frameTimes_ms_;  ///< of frames that had something to draw

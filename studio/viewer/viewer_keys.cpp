@@ -36,25 +36,42 @@ void Viewer::chooseByKey(int key, int mods) {
         if (shown == Shown::illuminance) session_.fitIlluminance();
     };
     if ((mods & GLFW_MOD_CONTROL) != 0) {
-        windowState_.asksForPath |= key == GLFW_KEY_O;
-        keyRequests_.saveLights |= key == GLFW_KEY_S;
+        if (key == GLFW_KEY_O) windowState_.browser.open(FileBrowser::Wanted::scene, "");
         keyRequests_.copyCommand |= key == GLFW_KEY_C;
         keyRequests_.quit |= key == GLFW_KEY_Q;
         const bool shift = (mods & GLFW_MOD_SHIFT) != 0;
+        keyRequests_.saveLights |= key == GLFW_KEY_S && !shift;
+        if (key == GLFW_KEY_S && shift)
+            windowState_.browser.open(FileBrowser::Wanted::lightsToSave, lightsPathOf(session_.document()));
         keyRequests_.undo |= key == GLFW_KEY_Z && !shift;
         keyRequests_.redo |= (key == GLFW_KEY_Z && shift) || key == GLFW_KEY_Y;
         if (key == GLFW_KEY_D) changeSelectedLight(key);
         return;
     }
+    const auto choose = [&](const std::string& name) {
+        return (mods & GLFW_MOD_SHIFT) != 0 ? chooseOther(session_, name) : chooseTechnique(session_, name);
+    };
     if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) {
+        // Over a panel digits are meant for a number there, and mean nothing where none is edited.
+        if (ImGui::GetIO().WantCaptureMouse || !place_.contains(ImGui::GetIO().MousePos)) return;
         const std::vector<std::string> names = techniqueChoices();
         const auto index = std::size_t(key - GLFW_KEY_1);
         const std::string name = key == GLFW_KEY_0      ? std::string(referenceName)
                                  : index < names.size() ? names[index]
                                                         : choices.technique;
-        return (mods & GLFW_MOD_SHIFT) != 0 ? chooseOther(session_, name) : chooseTechnique(session_, name);
+        return choose(name);
     }
     switch (key) {
+        case GLFW_KEY_E:
+            return choose(std::string(exactName));
+        case GLFW_KEY_A:
+            return choose(std::string(automaticName));
+        case GLFW_KEY_M:
+            windowState_.placesGrid = !windowState_.placesGrid;
+            return;
+        case GLFW_KEY_B:
+            keyRequests_.keepView = true;
+            return;
         case GLFW_KEY_C:
             choices.comparing = !choices.comparing;
             return session_.changedCanvas();

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "studio/metrics/false_color.h"
+#include "studio/viewer/grid_overlay.h"
+#include "studio/viewer/numbers.h"
 #include "studio/viewer/viewer.h"
 
 #include <GLFW/glfw3.h>
@@ -67,6 +69,7 @@ void Viewer::drawCanvas() {
     ImGui::GetBackgroundDrawList()->AddImage(imageId(canvas), place_.min,
                                              {place_.min.x + place_.size.x, place_.min.y + place_.size.y},
                                              {0, 1}, {1, 0});
+    drawGridOverlay(place_, session_, ui_.scale());
     mouse_.draw(place_, session_, windowState_, ui_.scale());
 }
 
@@ -80,7 +83,9 @@ void Viewer::drawOverlay() {
         if (technique == referenceName) {
             text += session_.truth() ? fmt::format(", {} rays", session_.truth()->samples) : ", tracing ...";
         } else if (const auto& metrics = session_.metrics(side)) {
-            text += fmt::format(", rmse {:.4f}", metrics->rmse);
+            text += session_.isCertain(metrics->rmse)
+                        ? fmt::format(", rmse {:.4f}", metrics->rmse)
+                        : fmt::format(", rmse about {:.4f} so far", metrics->rmse);
         }
         return text;
     };
@@ -92,9 +97,10 @@ void Viewer::drawOverlay() {
         if (choices.comparing)
             boxed(list, {max.x - margin, min.y + margin}, named(1, choices.other), scale, 1);
     }
+    drawIsolineNumbers();
     drawLegend();
     if (const auto& pick = session_.picker().result(); pick && pick->hasSurface) {
-        std::string text = fmt::format("{:.4g} lux", pick->illuminance_lux);
+        std::string text = plainNumber(pick->illuminance_lux) + " lux";
         if (pick->truth) text += fmt::format("\nvisibility {:.3f}", *pick->truth);
         boxed(list,
               {min.x + (float(pick->x) + 0.5f) / float(session_.width_px()) * place_.size.x + 12 * scale,
@@ -125,6 +131,22 @@ void Viewer::drawOverlay() {
     }
 }
 
+void Viewer::drawIsolineNumbers() {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    for (const IsolineNumber& number : session_.isolineNumbers()) {
+        const std::string text = plainNumber(number.lux, 2);
+        const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+        const float x = place_.min.x + (float(number.x) + 0.5f) / float(session_.width_px()) * place_.size.x;
+        const float y = place_.min.y + (float(number.y) + 0.5f) / float(session_.height_px()) * place_.size.y;
+        const float pad = 2 * ui_.scale();
+        const ImVec2 at(x - 0.5f * size.x, y - 0.5f * size.y);
+        if (at.x < place_.min.x) continue;
+        list.AddRectFilled({at.x - pad, at.y}, {at.x + size.x + pad, at.y + size.y},
+                           IM_COL32(12, 13, 16, 190), 3 * ui_.scale());
+        list.AddText(at, white, text.c_str());
+    }
+}
+
 void Viewer::drawLegend() {
     const CanvasOptions options = session_.canvasOptions();
     if (options.shown == Shown::picture) return;
@@ -147,7 +169,7 @@ void Viewer::drawLegend() {
     float freeFrom = -1e9f;
     for (const float mark : marksOf(scaleOf)) {
         const float x = at.x + width * placeOf(mark, scaleOf);
-        const std::string text = fmt::format("{:g}", mark);
+        const std::string text = plainNumber(mark, 3);
         const float half = 0.5f * ImGui::CalcTextSize(text.c_str()).x;
         list.AddLine({x, at.y + height}, {x, at.y + height + 3 * scale}, white);
         if (x - half < freeFrom) continue;

@@ -70,6 +70,7 @@ Window::Window(const WindowOptions& options) : library_(std::make_unique<Library
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // panels have their places; there is nothing to keep
+    ImGui::GetIO().ConfigDragClickToInputText = true;
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int mods) {
         static_cast<Window*>(glfwGetWindowUserPointer(window))->onKey(key, scancode, action, mods);

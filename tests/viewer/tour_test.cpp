@@ -96,7 +96,6 @@ TEST_F(Tour, Lights) {
          sphereLight("bulb", 0.15f, {1.5f, 1.3f, 0.4f}, {0, 0, 0}, 300, {0.6f, 0.75f, 1})});
     session().freeCamera().frame({{-2, 0, -1.4f}, {2, 2.4f, 1.4f}}, 1.3f);
     session().changedView();
-    scrollPanel(14);
     keep("lights");
 }
 
@@ -122,6 +121,24 @@ TEST_F(Tour, Buffers) {
     viewer().windowState().buffer = buffers.size() - 1;
     scrollPanel(40);
     keep("buffers");
+}
+
+TEST_F(Tour, Measure) {
+    begin("two-boxes", "exact");
+    session().editLights(
+        {rectLight("panel", 1.4f, 0.8f, {-0.9f, 2.2f, 0.9f}, {0, 0.2f, 0}, 900, {1, 0.9f, 0.75f})});
+    session().freeCamera().lookFrom({.eye = {1.5f, 3.6f, 5}, .target = {0, 0.2f, 0.2f}, .fov_deg = 38});
+    session().changedView();
+    frames();
+    session().choices().grid = GridSpec{.fromWorld = {-1.8, 0, 1.6},
+                                        .toWorld = {1.8, 0, -0.4},
+                                        .normalWorld = {0, 1, 0},
+                                        .columns = 18,
+                                        .rows = 10};
+    frames(3);
+    EXPECT_NE(session().grid().measurement(), nullptr) << session().grid().problem();
+    scrollPanel(12);
+    keep("measure");
 }
 
 TEST_F(Tour, Help) {

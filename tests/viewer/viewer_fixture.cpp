@@ -33,7 +33,7 @@ constexpr std::string_view sheetOverFloor =
 }  // namespace
 
 Display& ViewerTest::display() {
-    static Display instance;
+    static Display instance(96, "1600x1800");
     return instance;
 }
 
@@ -65,13 +65,17 @@ std::string ViewerTest::writeScene(const std::string& name) const {
 
 void ViewerTest::start(const std::string& scene, const std::string& technique) {
     saveSettings({.width = 900,
-                  .height = 1160,
+                  .height = 1660,
                   .resolutionScale = 0.25f,
                   .referenceRuns = false,
-                  .technique = technique},
+                  .technique = technique,
+                  .pictureWidth_px = -1,
+                  .pictureHeight_px = -1},
                  at("viewer.json"));
     viewer_ = std::make_unique<Viewer>(options(scene));
-    frames(3);
+    frames(1);
+    Display::input(to(0.9, 0.95));  // over the picture, where digits choose techniques
+    frames(2);
 }
 
 void ViewerTest::frames(int count) {
@@ -131,6 +135,18 @@ void ViewerTest::clickWidget(const std::string& label, double share) {
     ASSERT_NE(placed, nullptr) << label;
     click(fmt::format("mousemove {} {}", int(placed->min.x + share * (placed->max.x - placed->min.x)),
                       int(0.5f * (placed->min.y + placed->max.y))));
+}
+
+void ViewerTest::retype(const std::string& text) {
+    Display::input("key ctrl+a");
+    frames(2);  // while Ctrl is down letters are none
+    Display::input("type " + text);
+    frames(3);
+}
+
+void ViewerTest::type(const std::string& label, const std::string& text) {
+    clickWidget(label, 0.2);
+    retype(text);
 }
 
 void ViewerTest::openHeader(const std::string& label) {

@@ -39,6 +39,10 @@ class ViewerTest : public ::testing::Test {
     void drag(double x0, double y0, double x1, double y1, int button = 1);
     /// Clicks the middle of a widget that the last frame has drawn; `share` moves the point along its width.
     void clickWidget(const std::string& label, double share = 0.5);
+    /// In place of what the field says that is typed into.
+    void retype(const std::string& text);
+    /// Clicks into a number or a text and types, without Enter.
+    void type(const std::string& label, const std::string& text);
     const PlacedWidget* widget(const std::string& label) const;
     /// Opens the headers that are closed at first.
     void openHeader(const std::string& label);

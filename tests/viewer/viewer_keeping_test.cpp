@@ -83,25 +83,31 @@ TEST_F(ViewerTest, APictureAtRestIsRefined) {
     ViewerOptions patient = options("two-boxes");
     patient.refine_ms = std::numeric_limits<double>::infinity();
     viewer_.reset();
+    saveSettings(
+        {.width = 600, .height = 400, .resolutionScale = 0.5f, .referenceRuns = false, .technique = "hard"},
+        at("viewer.json"));
     viewer_ = std::make_unique<Viewer>(patient);
     frames(3);
     const Image plain = canvas();
     framesUntil([&] { return session().isRefined(); });
     const gl::Texture& shown = session().shown();
-    ASSERT_EQ(shown.width_px(), 2 * session().width_px());
-    ASSERT_EQ(shown.height_px(), 2 * session().height_px());
-    const Image refined = downsampled(readTexture(shown.name(), shown.width_px(), shown.height_px(), 3), 2);
+    // From half of the window's pixels to four samples for each.
+    EXPECT_EQ(session().refinedSamples(), 4);
+    ASSERT_EQ(shown.width_px(), 4 * session().width_px());
+    ASSERT_EQ(shown.height_px(), 4 * session().height_px());
+    const Image refined = downsampled(readTexture(shown.name(), shown.width_px(), shown.height_px(), 3), 4);
     EXPECT_LT(shareOfDifferent(refined, plain, 0.1), 0.1) << "it is the same picture,";
     EXPECT_GT(shareOfDifferent(refined, plain, 0.1), 0) << "with other edges";
     EXPECT_TRUE(samePixels(canvas(), plain)) << "what is kept of it is what it was";
 
+    Display::input(to(0.9, 0.9));
     key("2");  // another technique
     EXPECT_FALSE(session().isRefined());
     framesUntil([&] { return session().isRefined(); });
     key("c");  // two sides
     frames(2);
+    session().refine(600, 400, patient.refine_ms);
     EXPECT_FALSE(session().isRefined());
-    EXPECT_FALSE(session().refine());
 }
 
 TEST_F(ViewerTest, WhatIsKeptOfAReducedPictureIsNotReduced) {
@@ -138,6 +144,81 @@ TEST_F(ViewerTest, WhatIsKeptOfAReducedPictureIsNotReduced) {
     EXPECT_EQ(readExr(at("two-boxes.001.exr")).height_px, height_px);
 }
 
+TEST_F(ViewerTest, PicturesAreOfTheWindowsFullSizeAndLieBesideTheScene) {
+    std::filesystem::create_directories(at("rooms"));
+    saveSettings(
+        {.width = 500, .height = 340, .resolutionScale = 0.25f, .referenceRuns = false, .technique = "hard"},
+        at("viewer.json"));
+    viewer_ = std::make_unique<Viewer>(options(writeScene("rooms/box.gltf")));
+    frames();
+    const int width_px = int(viewer().canvasPlace().size.x);
+    ASSERT_LT(session().width_px(), width_px);
+    key("F2");
+    ASSERT_TRUE(std::filesystem::exists(at("rooms/box.001.png"))) << viewer().windowState().message;
+    const PngPicture full = readPng(at("rooms/box.001.png"));
+    EXPECT_EQ(full.image.width_px, width_px);
+    ASSERT_EQ(run(full.metadata.at("penumbra:command")), 0);
+    EXPECT_TRUE(samePixels(readPng(at("picture.png")).image, full.image))
+        << full.metadata.at("penumbra:command");
+    EXPECT_LT(session().width_px(), width_px) << "what is shown is as it was";
+
+    clickWidget("File");
+    clickWidget("Size of pictures");
+    clickWidget("1280 x 720");
+    key("F2");
+    EXPECT_EQ(readPng(at("rooms/box.002.png")).image.height_px, 720) << viewer().windowState().message;
+    key("ctrl+c");
+    EXPECT_NE(viewer().window().clipboard().find("--size 1280x720"), std::string::npos);
+}
+
+TEST_F(ViewerTest, ViewsAreKeptAndUndone) {
+    start(writeScene("box.gltf"));
+    drag(0.3, 0.6, 0.5, 0.5);
+    const Image kept = picture();
+    key("b");
+    ASSERT_EQ(session().choices().bookmarks.size(), 1u);
+    key("r");
+    EXPECT_GT(shareOfDifferent(kept, picture()), 0.01);
+    clickWidget("Camera");
+    clickWidget("View 1");
+    EXPECT_LE(shareOfDifferent(kept, picture(), 2.01 / 255), 0.01);
+    key("ctrl+z");
+    EXPECT_TRUE(session().choices().bookmarks.empty());
+    key("ctrl+shift+z");
+    EXPECT_EQ(session().choices().bookmarks.size(), 1u);
+    viewer_.reset();
+    viewer_ = std::make_unique<Viewer>(options(at("box.gltf")));
+    frames();
+    EXPECT_EQ(session().choices().bookmarks.size(), 1u) << "it is there again the next time";
+}
+
+TEST_F(ViewerTest, RecentFilesAreAbsoluteOnceEach) {
+    start(writeScene("box.gltf"));
+    ViewerOptions relative = options(std::filesystem::relative(at("box.gltf")).string());
+    viewer_.reset();
+    viewer_ = std::make_unique<Viewer>(relative);
+    frames();
+    const std::vector<RecentFile>& recent = viewer().settings().recentFiles;
+    ASSERT_EQ(recent.size(), 1u);
+    EXPECT_TRUE(std::filesystem::path(recent[0].scene).is_absolute()) << recent[0].scene;
+}
+
+TEST_F(ViewerTest, AFileIsChosenByLooking) {
+    std::filesystem::create_directories(at("rooms"));
+    start(writeScene("box.gltf"));
+    const std::string other = writeScene("rooms/other.gltf");
+    key("ctrl+o");
+    Display::input("type " + folder_.path().string());
+    frames();
+    key("Return");  // a folder is looked into
+    ASSERT_TRUE(widget("box.gltf")) << "scenes,";
+    EXPECT_FALSE(widget("viewer.json")) << "and nothing else";
+    clickWidget("rooms/", 0.1);
+    clickWidget("other.gltf", 0.1);
+    EXPECT_EQ(std::filesystem::canonical(session().document().nameOrPath()),
+              std::filesystem::canonical(other));
+}
+
 TEST_F(ViewerTest, SettingsSurviveARestart) {
     start("two-boxes");
     key("2");
@@ -150,7 +231,7 @@ TEST_F(ViewerTest, SettingsSurviveARestart) {
     EXPECT_EQ(session().techniques().changes("pcf"), (ParameterValues{{"radius", "3.5"}}));
     EXPECT_EQ(session().choices().resolutionScale, 0.5f);
     EXPECT_EQ(viewer().window().width_px(), 900);
-    EXPECT_EQ(viewer().settings().recentFiles.front(), "two-boxes");
+    EXPECT_EQ(viewer().settings().recentFiles.front(), (RecentFile{"two-boxes", ""}));
 }
 
 TEST_F(ViewerTest, AnimationPlaysPausesAndIsRecorded) {

@@ -61,6 +61,7 @@ TEST_F(ViewerTest, WhatWasDoneIsUndoneAndRedone) {
     clickWidget("Add");
     clickWidget("casts shadow", 0.1);
     clickWidget("map size (texels)##map_size", 0.2);
+    Display::input(to(0.5, 0.5));
     key("1");
     const Work done = session().work();
     const Image last = picture();
@@ -346,10 +347,10 @@ TEST_F(ViewerTest, ADistantLightIsMadeNoLuminaire) {
     start(writeScene("box.gltf"));
     session().editLights({rectLight("lamp", 0.2f, 0.2f, {0.1f, 1.5f, 0.2f}, {0.1f, 0, 0.2f}, 100)});
     frames();
-    EXPECT_TRUE(widget("Load"));
+    EXPECT_TRUE(widget("Load a luminaire ..."));
     session().editLights({distantLight("sun", 0.01f, {0, -1, 0}, 1)});
     frames();
-    EXPECT_FALSE(widget("Load"));
+    EXPECT_FALSE(widget("Load a luminaire ..."));
 
     const Work before = session().work();
     const std::string file = at("lamp.ies");

@@ -9,14 +9,18 @@
 
 #include "studio/errors.h"
 #include "studio/image/atomic_file.h"
+#include "studio/image/image_io.h"
 #include "studio/image/test_folder.h"
 #include "studio/metrics/false_color.h"
 #include "studio/scene/builtin/builtin.h"
 #include "studio/viewer/camera_control.h"
 #include "studio/viewer/edited_lights.h"
 #include "studio/viewer/gizmo.h"
+#include "studio/viewer/light_editing.h"
+#include "studio/viewer/numbers.h"
 #include "studio/viewer/panels/panels.h"
 #include "studio/viewer/progressive_reference.h"
+#include "studio/viewer/refining_cost.h"
 #include "studio/viewer/settings.h"
 
 namespace penumbra::studio::viewer {
@@ -245,17 +249,18 @@ TEST(EditedLights, ShowsWhatItSaves) {
     const TestFolder folder;
     Scene scene = makeBuiltin("many-lights");
     SceneMoment moment = scene.at(0);
-    EditedLights edited;
-    std::vector<Light> lights = moment.lights;
+    EditedLights edited(scene);
+    const std::vector<Light> own = moment.lights;
+    std::vector<Light> lights = own;
     lights[0].shape.width_m = 0.7f;
     lights[1].emission.value = {123.4f, 56.7f, 8.9f};
     lights[2].castsShadow = false;
     lights.push_back(lights[0]);  // the same name twice
-    edited.edit(lights);
-    edited.apply(moment);
+    edited.edit(lights, moment, own);
+    moment.lights = edited.at(moment, own);
     EXPECT_EQ(moment.lights.back().name, lights[0].name + " 2");
     EXPECT_TRUE(edited.unsaved());
-    edited.save(scene, folder / "scene.lights.json");
+    edited.save(folder / "scene.lights.json");
     EXPECT_FALSE(edited.unsaved());
 
     Scene again = makeBuiltin("many-lights");
@@ -281,10 +286,9 @@ TEST(EditedLights, KeepsWhatTheFileSaysOfNodesAndWritesTextures) {
                         std::string_view(R"({"version": 1, "nodes": {"ball": {"casts": false}}})"));
     Scene scene = makeBuiltin("textured-window");
     SceneMoment moment = scene.at(0);
-    EditedLights edited;
-    edited.edit(moment.lights);
-    edited.apply(moment);
-    edited.save(scene, folder / "a.lights.json");
+    EditedLights edited(scene, folder / "a.lights.json");
+    edited.edit(moment.lights, moment, moment.lights);
+    edited.save(folder / "a.lights.json");
     const Sidecar sidecar = readSidecar(folder / "a.lights.json");
     ASSERT_EQ(sidecar.surfaces.nodes.size(), 1u);
     EXPECT_EQ(sidecar.surfaces.nodes[0].casts, false);
@@ -298,13 +302,184 @@ TEST(EditedLights, KeepsWhatTheFileSaysOfNodesAndWritesTextures) {
     EXPECT_EQ(pictureOf(again, light), pictureOf(scene, moment.lights[0]));
 }
 
+constexpr std::string_view statedLights = R"({
+  "$schema": "https://example.org/lights.schema.json",
+  "nodes": {"ball": {"casts": false}},
+  "lights": [
+    {"type": "SphereLight", "name": "lamp", "radius": 0.10, "normalize": true, "intensity": 1.50e2,
+     "exposure": 2, "color": [1, 0.50, 0.25], "node": "ball", "translation": [0, 1.0, 0]},
+    {"name": "key",   "type": "RectLight", "width": 1.0, "height": 1, "intensity": 300,
+     "translation": [-2, 4.60, 2], "aim": [0, 0, 0]}
+  ],
+  "version": 1
+}
+)";
+
+/// `moving` with the lights above, at 1 s.
+struct StatedLights {
+    TestFolder folder;
+    std::filesystem::path file = folder / "moving.lights.json";
+    Scene scene = makeBuiltin("moving");
+    SceneMoment moment;
+    std::vector<Light> own;
+
+    StatedLights() {
+        writeFileAtomically(file, statedLights);
+        applySidecar(scene, readSidecar(file), folder.path());
+        show(1);
+    }
+    void show(double time_s, const EditedLights* edited = nullptr) {
+        moment = scene.at(time_s);
+        own = moment.lights;
+        if (edited != nullptr) moment.lights = edited->at(moment, own);
+    }
+    std::string text(const std::string& name = "moving.lights.json") const {
+        const std::vector<std::byte> bytes = readWholeFile(folder / name);
+        return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+    }
+    static std::string with(std::string_view before, std::string_view after) {
+        std::string changed(statedLights);
+        return changed.replace(changed.find(before), before.size(), after);
+    }
+};
+
+TEST(EditedLights, WhatNobodyEditedStaysLetterForLetter) {
+    StatedLights stated;
+    EditedLights edited(stated.scene, stated.file);
+    edited.edit(stated.own, stated.moment, stated.own);
+    edited.save(stated.file);
+    EXPECT_EQ(stated.text(), statedLights);
+    const std::vector<Light> shown = edited.at(stated.moment, stated.own);
+    for (std::size_t i = 0; i < shown.size(); ++i)
+        EXPECT_EQ(shown[i].shape.worldFromLight, stated.own[i].shape.worldFromLight);
+
+    // One key of one light, in two steps as a drag makes them.
+    std::vector<Light> lights = shown;
+    stated.moment.lights = shown;
+    for (const float width_m : {1.5f, 2.5f}) {
+        lights[1].shape.width_m = width_m;
+        edited.edit(lights, stated.moment, stated.own);
+        stated.show(1, &edited);
+        lights = stated.moment.lights;
+    }
+    edited.save(stated.file);
+    const std::string light =
+        R"({"name": "key", "type": "RectLight", "width": 2.5, "height": 1, "intensity": 300, )"
+        R"("translation": [-2, 4.60, 2], "aim": [0, 0, 0]})";
+    const std::string before =
+        R"({"name": "key",   "type": "RectLight", "width": 1.0, "height": 1, "intensity": 300,
+     "translation": [-2, 4.60, 2], "aim": [0, 0, 0]})";
+    EXPECT_EQ(stated.text(), StatedLights::with(before, light));
+}
+
+TEST(EditedLights, AnEditedLightKeepsItsNodeAndItsMotion) {
+    StatedLights stated;
+    EditedLights edited(stated.scene, stated.file);
+    std::vector<Light> lights = stated.own;
+    lights[0].castsShadow = false;
+    glm::mat4 matrix = std::bit_cast<glm::mat4>(lights[0].shape.worldFromLight);
+    matrix[3] += glm::vec4(0.25f, 0.5f, 0, 0);
+    lights[0].shape.worldFromLight = std::bit_cast<Mat4>(matrix);
+    edited.edit(lights, stated.moment, stated.own);
+    edited.save(stated.folder / "other.lights.json");
+    const std::string text = stated.text("other.lights.json");
+    EXPECT_NE(text.find(R"("intensity": 1.50e2)"), std::string::npos) << text;
+    EXPECT_NE(text.find(R"("normalize": true)"), std::string::npos) << text;
+    EXPECT_NE(text.find(R"("node": "ball")"), std::string::npos) << text;
+    EXPECT_EQ(stated.text(), statedLights) << "the scene's own file is as it was";
+
+    Scene again = makeBuiltin("moving");
+    applySidecar(again, readSidecar(stated.folder / "other.lights.json"), stated.folder.path());
+    for (const double time_s : {1.0, 0.0, 1.7, 3.1}) {
+        stated.show(time_s, &edited);
+        const std::vector<Light> read = again.at(time_s).lights;
+        for (std::size_t i = 0; i < read.size(); ++i) {
+            EXPECT_EQ(read[i].shape.worldFromLight, stated.moment.lights[i].shape.worldFromLight)
+                << i << " " << time_s;
+            EXPECT_EQ(read[i].emission.value, stated.moment.lights[i].emission.value);
+            EXPECT_EQ(read[i].castsShadow, stated.moment.lights[i].castsShadow);
+        }
+        const auto placeOf = [](const Light& light) {
+            return glm::vec3(std::bit_cast<glm::mat4>(light.shape.worldFromLight)[3]);
+        };
+        expectNear(placeOf(read[0]) - placeOf(stated.own[0]), {0.25f, 0.5f, 0}, 1e-5f);
+    }
+}
+
+TEST(EditedLights, ALightsPicturesGoAlongToAnotherFolder) {
+    const TestFolder folder;
+    std::filesystem::create_directories(folder / "there");
+    std::filesystem::create_directories(folder / "pictures");
+    const Image window(4, 4, 3, 0.5f);
+    writePng(folder / "pictures/window.png", window);
+    writeFileAtomically(
+        folder / "a.lights.json",
+        std::string_view(R"({"version": 1, "lights": [{"type": "RectLight", "name": "w", "width": 1,
+"height": 1, "intensity": 10, "texture:file": "pictures/window.png", "translation": [0, 3, 0]}]})"));
+    Scene scene = makeBuiltin("half-plane");
+    applySidecar(scene, readSidecar(folder / "a.lights.json"), folder.path());
+    SceneMoment moment = scene.at(0);
+    EditedLights edited(scene, folder / "a.lights.json");
+    std::vector<Light> lights = moment.lights;
+    lights[0].castsShadow = false;
+    edited.edit(lights, moment, moment.lights);
+    edited.save(folder / "there/b.lights.json");
+    Scene again = makeBuiltin("half-plane");
+    applySidecar(again, readSidecar(folder / "there/b.lights.json"), folder / "there");
+    EXPECT_GE(again.at(0).lights.at(0).texture, 0);
+    EXPECT_FALSE(again.at(0).lights.at(0).castsShadow);
+}
+
+TEST(LightEditing, BearingsGoThereAndBack) {
+    Light light = rectLight("key", 1, 0.5f, {1, 3, 2}, {0, 0, 0}, 700);
+    for (const Bearing wanted : {Bearing{30, 50}, {-120, -10}, {200, 90}, {75, -90}}) {
+        setBearing(light, wanted);
+        const Bearing found = bearingOf(light);
+        EXPECT_NEAR(std::remainder(found.azimuth_deg - wanted.azimuth_deg, 360.0f), 0, 0.01f);
+        EXPECT_NEAR(found.altitude_deg, wanted.altitude_deg, 0.02f);
+        expectNear(glm::vec3(std::bit_cast<glm::mat4>(light.shape.worldFromLight)[3]), {1, 3, 2});
+    }
+    aimAt(light, {1, 0, 2});
+    EXPECT_NEAR(bearingOf(light).altitude_deg, 90, 1e-3f) << "it shines straight down";
+    const Light sun = distantLight("sun", 0.01f, {-1, 0, 0}, 1);
+    EXPECT_NEAR(bearingOf(sun).azimuth_deg, 90, 1e-3f) << "light that goes to -X comes from +X";
+}
+
+TEST(Numbers, HaveNoExponents) {
+    EXPECT_EQ(plainNumber(123456.7), "123457");
+    EXPECT_EQ(plainNumber(1e6), "1000000");
+    EXPECT_EQ(plainNumber(0.00032104), "0.000321");
+    EXPECT_EQ(plainNumber(20), "20");
+    EXPECT_EQ(plainNumber(0), "0");
+    EXPECT_EQ(plainNumber(-0.25), "-0.25");
+    EXPECT_EQ(plainFormat(31234.5f), "%.0f");
+}
+
+TEST(RefiningCost, CompilingDoesNotCount) {
+    RefiningCost cost;
+    int probes = 0;
+    const auto probe = [&](int) { return ++probes == 1 ? 900.0 : 80.0; };  // the first compiles, too
+    cost.drawn(5000);
+    EXPECT_TRUE(cost.isWithin(1000, 4, probe));
+    EXPECT_EQ(probes, 2);
+    EXPECT_FALSE(cost.isWithin(100, 4, probe));
+    EXPECT_EQ(probes, 2) << "and is asked no third time";
+    cost.drawn(30);
+    EXPECT_TRUE(cost.isWithin(1000, 4, probe));
+    EXPECT_EQ(probes, 2) << "what is cheap is not measured again";
+}
+
 TEST(Settings, ComeBackAsTheyWere) {
     const TestFolder folder;
     Settings settings{.width = 700, .height = 500, .resolutionScale = 0.5f, .technique = "pcss"};
     settings.parameters["pcss"] = {{"search_samples", "9"}};
     settings.presets["pcss"]["coarse"] = {{"filter_samples", "4"}};
-    for (int i = 0; i < 12; ++i) settings.addRecent("scene" + std::to_string(i));
-    settings.addRecent("scene5");
+    for (int i = 0; i < 12; ++i) settings.addRecent({"scene" + std::to_string(i), ""});
+    settings.addRecent({"scene5", "evening.lights.json"});
+    settings.addRecent({"scene5", ""});
+    settings.bookmarks["scene5"] = {{"View 1", {.eye = {1, 2, 3}, .target = {0, 1, 0}, .fov_deg = 33.3f}}};
+    settings.pictureWidth_px = 1920;
+    settings.pictureHeight_px = 1080;
     saveSettings(settings, folder / "deep" / "viewer.json");
     const Settings read = loadSettings(folder / "deep" / "viewer.json");
     EXPECT_EQ(read.width, 700);
@@ -313,8 +488,11 @@ TEST(Settings, ComeBackAsTheyWere) {
     EXPECT_EQ(read.parameters, settings.parameters);
     EXPECT_EQ(read.presets, settings.presets);
     ASSERT_EQ(read.recentFiles.size(), 10u);
-    EXPECT_EQ(read.recentFiles[0], "scene5");
-    EXPECT_EQ(read.recentFiles[1], "scene11");
+    EXPECT_EQ(read.recentFiles, settings.recentFiles);
+    EXPECT_EQ(read.recentFiles[0], (RecentFile{"scene5", ""}));
+    EXPECT_EQ(read.recentFiles[1], (RecentFile{"scene5", "evening.lights.json"}));
+    EXPECT_EQ(read.bookmarks, settings.bookmarks);
+    EXPECT_EQ(read.pictureWidth_px, 1920);
 }
 
 TEST(Settings, NonsenseIsNoReasonNotToStart) {

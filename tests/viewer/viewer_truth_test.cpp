@@ -28,6 +28,8 @@ TEST_F(ViewerTest, TheTruthConvergesAndJudges) {
                           session().frame().readVisibility(side.visibilities[0]), mask);
     EXPECT_EQ(metrics->rmse, expected.rmse);
     EXPECT_LT(session().truth()->lights[0].noise_rms, 0.05);
+    EXPECT_TRUE(session().isCertain(11 * session().truth()->lights[0].noise_rms));
+    EXPECT_FALSE(session().isCertain(9 * session().truth()->lights[0].noise_rms)) << "is told in grey";
     const auto level = session().truth();
     drag(0.3, 0.6, 0.4, 0.6);  // another view: what was true is not any more
     EXPECT_NE(session().truth(), level);
@@ -116,10 +118,78 @@ TEST_F(ViewerTest, IlluminanceIsInLux) {
         readTexture(session().side(0).illuminance.name(), session().width_px(), session().height_px(), 1);
     EXPECT_NEAR(std::ranges::max(lux.values), std::acos(-1.0) * 1000 * 0.25 / 16.25, 0.3);
     EXPECT_EQ(session().canvasOptions().range.max, 50);
+    EXPECT_TRUE(session().canvasOptions().logarithmic);
     const Image withLines = canvas();
     clickWidget("isolines", 0.1);
     EXPECT_GT(shareOfDifferent(withLines, canvas()), 0.002);
     EXPECT_LT(shareOfDifferent(withLines, canvas()), 0.2);
+}
+
+TEST_F(ViewerTest, IlluminanceStartsOnAScaleThatShowsSomething) {
+    start("half-plane");
+    // A lamp just over the floor: its spot is a thousand times as bright as most of the floor.
+    Light lamp = diskLight("lamp", 0.02f, {2, 0.05f, 2}, {2, 0, 2}, 1);
+    lamp.emission = {Emission::Unit::nits, glm::vec3(1e6f)};
+    session().editLights({lamp});
+    key("i");
+    const CanvasOptions options = session().canvasOptions();
+    EXPECT_TRUE(options.logarithmic);
+    EXPECT_GT(options.range.min, 0);
+    EXPECT_GE(options.range.max, 4.99f * options.range.min);
+    const Image shown = canvas();
+    std::vector<int> lightness(8, 0);
+    for (std::size_t i = 0; i < shown.pixelCount(); ++i)
+        ++lightness[std::size_t(std::min(7.99f, 8 * shown.values[3 * i + 1]))];
+    const auto used = std::ranges::count_if(lightness, [](int pixels) { return pixels > 50; });
+    EXPECT_GE(used, 4) << "colours are spread over the picture";
+}
+
+TEST_F(ViewerTest, IsolinesCarryNumbersAndTraceNoOutlines) {
+    start("two-boxes");
+    // From above nothing differs along a surface but a little: what lines there were, were outlines.
+    Light sky = distantLight("sky", 0.5f, {0, -1, 0.001f}, 1500);
+    sky.castsShadow = false;
+    session().editLights({sky});
+    key("i");
+    const auto linePixels = [&] {
+        const gl::Texture& lines = session().canvas().isolines();
+        const Image levels = readTexture(lines.name(), lines.width_px(), lines.height_px(), 1);
+        return std::ranges::count_if(levels.values, [](float level) { return level > 0; });
+    };
+    EXPECT_EQ(linePixels(), 0);
+    EXPECT_TRUE(session().isolineNumbers().empty());
+
+    Light lamp = diskLight("lamp", 0.2f, {0, 2.5f, 0}, {0, 0, 0}, 900);
+    lamp.castsShadow = false;
+    session().editLights({lamp});
+    frames();
+    EXPECT_GT(linePixels(), 50);
+    ASSERT_FALSE(session().isolineNumbers().empty());
+    const Image lux =
+        readTexture(session().side(0).illuminance.name(), session().width_px(), session().height_px(), 1);
+    for (const IsolineNumber& number : session().isolineNumbers()) {
+        // Of the pixel's and those to the right and above, between which the line runs.
+        const int right = std::min(number.x + 1, lux.width_px - 1), above = std::max(number.y - 1, 0);
+        const auto [least, most] =
+            std::minmax({lux.at(number.x, number.y), lux.at(right, number.y), lux.at(number.x, above)});
+        EXPECT_LE(least, number.lux * 1.001f);
+        EXPECT_GE(most, number.lux * 0.999f);
+    }
+}
+
+TEST_F(ViewerTest, APickAnswersFirstForWhatIsShownAndCanBeStopped) {
+    start("two-boxes", "pcf");
+    click(to(0.5, 0.6));
+    framesUntil([&] { return session().picker().result() && !session().picker().result()->answers.empty(); });
+    EXPECT_EQ(session().picker().result()->answers.front().technique, "pcf");
+    clickWidget("Stop asking");
+    const std::size_t answers = session().picker().result()->answers.size();
+    EXPECT_LT(answers, techniqueCatalog().size());
+    frames();
+    EXPECT_FALSE(session().picker().busy());
+    EXPECT_EQ(session().picker().result()->answers.size(), answers);
+    key("Escape");
+    EXPECT_FALSE(session().picker().result());
 }
 
 TEST_F(ViewerTest, BuffersAreShown) {

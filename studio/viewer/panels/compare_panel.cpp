@@ -46,7 +46,12 @@ void drawMetrics(Ui& ui, const Session& session) {
         for (std::size_t side = 0; side < 2; ++side) {
             ImGui::TableNextColumn();
             const auto& metrics = session.metrics(side);
-            ImGui::TextUnformatted(metrics ? fmt::format("{:.4f}", (*metrics).*member).c_str() : "-");
+            const std::string text = metrics ? fmt::format("{:.4f}", (*metrics).*member) : "-";
+            // Grey: the truth's own noise is as large as a tenth of it, or larger.
+            if (metrics && session.isCertain((*metrics).*member))
+                ImGui::TextUnformatted(text.c_str());
+            else
+                ImGui::TextDisabled("%s", text.c_str());
         }
     };
     row("rmse", &VisibilityMetrics::rmse);
@@ -115,7 +120,7 @@ void drawColorsPanel(Ui& ui, Session& session) {
             session.fitIlluminance();
         }
         ImGui::SameLine();
-        if (ui.checkbox("logarithmic", choices.logarithmic)) session.changedCanvas();
+        if (ui.checkbox("logarithmic", choices.logarithmic)) session.fitIlluminance();
         ImGui::SameLine();
         if (ui.checkbox("isolines", choices.isolines)) session.changedCanvas();
     }

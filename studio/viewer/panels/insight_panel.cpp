@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "studio/viewer/numbers.h"
 #include "studio/viewer/panels/panels.h"
 #include "studio/workbench/settle.h"
 
@@ -37,8 +38,8 @@ void drawPasses(const Session& session) {
                                fmt::format("{}  {:.2f} ms", pass.name, pass.milliseconds).c_str());
         }
         for (const Statistic& count : statistics.counts) {
-            ImGui::TextDisabled("%s",
-                                fmt::format("{}: {:g} {}", count.name, count.value, count.unit).c_str());
+            ImGui::TextDisabled(
+                "%s", fmt::format("{}: {} {}", count.name, plainNumber(count.value), count.unit).c_str());
         }
         ImGui::TreePop();
     }
@@ -72,9 +73,16 @@ void drawPick(Ui& ui, Session& session) {
     const std::optional<Pick>& pick = session.picker().result();
     if (!pick) return ui.note("Click into the picture to ask about a pixel.");
     if (!pick->hasSurface) return ui.note(fmt::format("({}, {}): no surface there", pick->x, pick->y));
+    // Above what grows, so that they stay where they are.
+    const bool closes = ui.button("Close pick");
+    if (session.picker().busy()) {
+        ImGui::SameLine();
+        if (ui.button("Stop asking")) session.picker().stop();
+    }
+    if (closes) return session.picker().clear();
     ui.note(fmt::format("pixel ({}, {}), at ({:.3f}, {:.3f}, {:.3f}) m", pick->x, pick->y, pick->posWorld.x,
                         pick->posWorld.y, pick->posWorld.z));
-    ImGui::TextUnformatted(fmt::format("{:.4g} lux", pick->illuminance_lux).c_str());
+    ImGui::TextUnformatted((plainNumber(pick->illuminance_lux) + " lux").c_str());
     if (!session.document().moment().lights.empty()) {
         const std::string truth = pick->truth ? fmt::format("{:.4f}", *pick->truth) : "...";
         ImGui::TextUnformatted(fmt::format("visibility, truth: {}", truth).c_str());
@@ -98,7 +106,6 @@ void drawPick(Ui& ui, Session& session) {
             ImGui::Image(imageId(view), {width, width}, {0, 1}, {1, 0});
         }
     }
-    if (ui.button("Close pick")) session.picker().clear();
 }
 
 }  // namespace

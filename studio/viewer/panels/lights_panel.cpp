@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "studio/scene/profiles/light_profile.h"
+#include "studio/viewer/light_editing.h"
 #include "studio/viewer/panels/panels.h"
 
 namespace penumbra::studio::viewer {
@@ -79,7 +80,82 @@ bool editPlace(Ui& ui, Light& light) {
     return changed;
 }
 
-bool editLight(Ui& ui, Light& light, Requests& requests) {
+/// From where it shines, by numbers, and a point to shine at.
+bool editDirection(Ui& ui, Light& light, const Session& session, WindowState& windowState) {
+    Bearing bearing = bearingOf(light);
+    bool changed = ui.drag("azimuth (deg)", bearing.azimuth_deg, 1, -360, 360, "%.2f");
+    ui.tip("Where its light comes from: clockwise, seen from above, from -Z");
+    changed |= ui.drag("altitude (deg)", bearing.altitude_deg, 1, -90, 90, "%.2f");
+    ui.tip("How high its light comes from: 90 shines straight down");
+    if (changed) setBearing(light, bearing);
+    if (light.shape.shape == LightShape::distant) return changed;
+    constexpr std::array names = {"aim x (m)", "aim y (m)", "aim z (m)"};
+    for (int i = 0; i < 3; ++i) ui.drag(names[std::size_t(i)], windowState.aim_m[i], 0.01f, -1e6f, 1e6f);
+    if (ui.button("Aim there")) {
+        aimAt(light, windowState.aim_m);
+        changed = true;
+    }
+    const std::optional<Pick>& pick = session.picker().result();
+    ImGui::SameLine();
+    if (ui.button("Aim at the pick") && pick && pick->hasSurface) {
+        windowState.aim_m = pick->posWorld;
+        aimAt(light, pick->posWorld);
+        changed = true;
+    }
+    ui.tip("Click into the picture first");
+    return changed;
+}
+
+/// Half-angles in which it falls off from full to none.
+bool editCone(Ui& ui, Light& light) {
+    if (light.shape.shape == LightShape::distant || (light.profile && light.profile->isLuminaire))
+        return false;
+    bool isCone = light.cone_rad.has_value();
+    bool changed = ui.checkbox("cone", isCone);
+    if (changed) {
+        const std::array<float, 2> first_rad = {glm::radians(30.0f), glm::radians(45.0f)};
+        light.cone_rad = isCone ? std::optional(first_rad) : std::nullopt;
+    }
+    if (!light.cone_rad) return changed;
+    auto& [inner_rad, outer_rad] = *light.cone_rad;
+    float inner_deg = glm::degrees(inner_rad), outer_deg = glm::degrees(outer_rad);
+    if (ui.drag("cone, full (deg)", inner_deg, 0.5f, 0, 90, "%.2f")) {
+        inner_rad = glm::radians(inner_deg);
+        outer_rad = std::max(inner_rad, outer_rad);
+        changed = true;
+    }
+    if (ui.drag("cone, none (deg)", outer_deg, 0.5f, 0, 90, "%.2f")) {
+        outer_rad = glm::radians(outer_deg);
+        inner_rad = std::min(inner_rad, outer_rad);
+        changed = true;
+    }
+    return changed;
+}
+
+/// A picture that a rectangle shows.
+bool editTexture(Ui& ui, Light& light, const Scene& scene, WindowState& windowState) {
+    if (light.shape.shape != LightShape::rect || light.profile) return false;
+    std::vector<std::string> names = {"(no picture)"};
+    for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+        const Picture& picture = scene.pictures[std::size_t(scene.textures[i].picture)];
+        names.push_back(
+            fmt::format("{}##{}", picture.name.empty() ? fmt::format("picture {}", i + 1) : picture.name, i));
+    }
+    int index = light.texture + 1;
+    const bool changed = ui.combo("texture", index, names);
+    if (changed) light.texture = index - 1;
+    if (ui.button("Load a picture ...")) windowState.browser.open(FileBrowser::Wanted::texture, "");
+    return changed;
+}
+
+/// What a light without a size is, in a word.
+void sayHard(Ui& ui, const Light& light) {
+    const AreaLight& shape = light.shape;
+    const bool hasSize = shape.width_m * shape.height_m > 0 || shape.radius_m > 0 || shape.angle_rad > 0;
+    if (!hasSize) ui.note("This light has no size, so its shadows are hard: give it one above.");
+}
+
+bool editLight(Ui& ui, Light& light, const Session& session, WindowState& windowState, Requests& requests) {
     bool changed = ui.text("name", light.name);
     int shape = int(light.shape.shape);
     if (ui.combo("shape", shape, shapeNames)) {
@@ -89,9 +165,13 @@ bool editLight(Ui& ui, Light& light, Requests& requests) {
     if (light.shape.shape == LightShape::distant) changed |= editSun(ui, light, requests);
     if (!light.sun) {
         changed |= editSizes(ui, light);
+        sayHard(ui, light);
         changed |= editEmission(ui, light);
     }
     changed |= editPlace(ui, light);
+    if (!light.sun) changed |= editDirection(ui, light, session, windowState);
+    changed |= editCone(ui, light);
+    changed |= editTexture(ui, light, session.document().scene(), windowState);
     changed |= ui.checkbox("casts shadow", light.castsShadow);
     if (light.shape.shape == LightShape::rect || light.shape.shape == LightShape::disk) {
         changed |= ui.checkbox("shines both ways", light.shape.twoSided);
@@ -100,7 +180,7 @@ bool editLight(Ui& ui, Light& light, Requests& requests) {
 }
 
 /// What the light is by its maker's file, and a file to make it so.
-bool editProfile(Ui& ui, Light& light, WindowState& windowState, Requests& requests) {
+bool editProfile(Ui& ui, Light& light, WindowState& windowState) {
     if (light.shape.shape == LightShape::distant) return false;  // no luminaire is
     bool changed = false;
     if (light.profile) {
@@ -111,10 +191,8 @@ bool editProfile(Ui& ui, Light& light, WindowState& windowState, Requests& reque
             changed = true;
         }
     }
-    ui.text("profile", windowState.profilePath);
+    if (ui.button("Load a luminaire ...")) windowState.browser.open(FileBrowser::Wanted::profile, "");
     ui.tip("A luminaire's file, .ies or .ldt: the light becomes that luminaire. Files can be dropped, too.");
-    ImGui::SameLine();
-    if (ui.button("Load")) requests.profile = windowState.profilePath;
     return changed;
 }
 
@@ -135,6 +213,9 @@ void chooseTechniqueOf(Ui& ui, Session& session, const Light& light) {
 
 void drawList(Ui& ui, Session& session) {
     const std::vector<Light>& lights = session.document().moment().lights;
+    constexpr std::size_t mostShown = 6;  // at a time
+    const bool scrolls = lights.size() > mostShown;
+    if (scrolls) ImGui::BeginChild("lights", {0, float(mostShown) * ImGui::GetFrameHeightWithSpacing()});
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const std::string label = fmt::format("{}  ({})##light {}", lights[i].name,
                                               shapeNames[std::size_t(lights[i].shape.shape)], i);
@@ -143,18 +224,16 @@ void drawList(Ui& ui, Session& session) {
             session.changedLighting();  // the light in question comes last
         }
     }
+    if (scrolls) ImGui::EndChild();
 }
 
 /// Adds, doubles and takes away; returns whether the lights are others now.
-bool drawListButtons(Ui& ui, Session& session) {
+bool drawListButtons(Ui& ui, Session& session, Requests& requests) {
     std::vector<Light> lights = session.document().moment().lights;
     std::size_t& selected = session.choices().light;
     bool changed = false;
-    if (ui.button("Add")) {
-        lights.push_back(newLight(session.document().bounds(), lights.size()));
-        selected = lights.size() - 1;
-        changed = true;
-    }
+    if (ui.button("Add")) requests.addLight = true;
+    ui.tip("A light that faces the surface in the middle of the picture");
     if (selected < session.document().moment().lights.size()) {
         ImGui::SameLine();
         if (ui.button("Duplicate")) {
@@ -177,15 +256,15 @@ bool drawListButtons(Ui& ui, Session& session) {
 void drawLightsPanel(Ui& ui, Session& session, WindowState& windowState, Requests& requests) {
     if (!ui.header("Lights")) return;
     drawList(ui, session);
-    if (drawListButtons(ui, session)) return;
+    if (drawListButtons(ui, session, requests)) return;
     std::vector<Light> lights = session.document().moment().lights;
     const std::size_t selected = session.choices().light;
     if (selected < lights.size()) {
         ImGui::PushItemWidth(150 * ui.scale());
         const std::string nameBefore = lights[selected].name;
         chooseTechniqueOf(ui, session, lights[selected]);
-        const bool otherwise = editLight(ui, lights[selected], requests);
-        if (editProfile(ui, lights[selected], windowState, requests) || otherwise) {
+        const bool otherwise = editLight(ui, lights[selected], session, windowState, requests);
+        if (editProfile(ui, lights[selected], windowState) || otherwise) {
             auto& own = session.choices().techniqueOfLight;
             session.editLights(lights);
             // A technique of its own follows a light to its new name.

@@ -5,6 +5,7 @@
 
 #include "studio/viewer/export.h"
 #include "studio/viewer/gizmo.h"
+#include "studio/viewer/panels/file_browser.h"
 #include "studio/viewer/panels/ui.h"
 
 namespace penumbra::studio::viewer {
@@ -16,8 +17,7 @@ struct WindowState {
     bool showsPanel = true;
     bool playing = false;
     Gizmo::Mode gizmoMode = Gizmo::Mode::move;
-    std::string openPath;  ///< in the dialog
-    bool asksForPath = false;
+    FileBrowser browser;
     std::string message;  ///< of the last thing done; shown for a while
     bool messageIsError = false;
     double messageUntil_s = 0;
@@ -26,7 +26,8 @@ struct WindowState {
     int bufferLayer = 0;
     bool bufferStretched = true;
     std::string presetName;
-    std::string profilePath;  ///< of a luminaire
+    glm::vec3 aim_m{0};       ///< where a light shall shine
+    bool placesGrid = false;  ///< the next drag over the picture lays a grid
     bool canUndo = false, canRedo = false;
     std::optional<Requests> leaving;  ///< what shall be done once it is known what becomes of unsaved lights
 };
@@ -35,13 +36,19 @@ struct WindowState {
 std::vector<std::string> techniqueChoices();
 void chooseTechnique(Session& session, const std::string& name);
 void chooseOther(Session& session, const std::string& name);
+/// They have keys of their own.
+inline constexpr std::string_view exactName = "exact", automaticName = "auto";
+/// Where the scene's lights would be saved.
+std::filesystem::path lightsPathOf(const Document& document);
+/// Where a measured grid would be.
+std::filesystem::path gridPathOf(const Document& document);
 
-void drawMenuBar(Ui& ui, Session& session, const Settings& settings, WindowState& windowState,
-                 Requests& requests);
+void drawMenuBar(Ui& ui, Session& session, Settings& settings, WindowState& windowState, Requests& requests);
 void drawTechniquePanel(Ui& ui, Session& session, Settings& settings, WindowState& windowState);
 void drawLightsPanel(Ui& ui, Session& session, WindowState& windowState, Requests& requests);
 /// A distant light's; returns whether it is another now. At night it stays where it was, and why is said.
 bool editSun(Ui& ui, Light& light, Requests& requests);
+void drawMeasurePanel(Ui& ui, Session& session, WindowState& windowState);
 void drawComparePanel(Ui& ui, Session& session);
 void drawColorsPanel(Ui& ui, Session& session);
 void drawInsightPanel(Ui& ui, Session& session, WindowState& windowState,

@@ -18,7 +18,7 @@ SunOrigin firstSun() {
 
 bool editNumber(Ui& ui, const char* label, double& value, float limit) {
     auto shown = float(value);
-    if (!ui.slider(label, shown, -limit, limit, "%.4g")) return false;
+    if (!ui.slider(label, shown, -limit, limit, "%.2f")) return false;
     value = shown;
     return true;
 }

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/viewer/panels/ui.h"
 
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studio/viewer/numbers.h"
 
 namespace penumbra::studio::viewer {
 
@@ -34,6 +40,10 @@ bool Ui::beginMenu(const char* label, bool enabled) {
     return ImGui::BeginMenu(label, enabled);
 }
 
+bool Ui::selectable(const char* label, bool chosen) {
+    return placed(label, ImGui::Selectable(label, chosen, ImGuiSelectableFlags_DontClosePopups));
+}
+
 bool Ui::menuItem(const char* label, const char* keys, bool chosen, bool enabled) {
     return placed(label, ImGui::MenuItem(label, keys, chosen, enabled));
 }
@@ -55,25 +65,66 @@ bool Ui::combo(const char* label, int& index, const std::vector<std::string>& na
     return changed;
 }
 
+template <typename Number, typename Widget>
+bool Ui::entered(const char* label, Number& value, const Widget& widget) {
+    const ImGuiID id = ImGui::GetID(label);
+    const int frame = ImGui::GetFrameCount();
+    if (typing_ && typing_->frame < frame - 1) typing_.reset();  // it went away before it was entered
+    const bool wasTyped = typing_ && typing_->id == id;
+    Number shown = wasTyped ? Number(typing_->value) : value;
+    const bool changed = placed(label, widget(shown));
+    if (ImGui::TempInputIsActive(id)) {
+        typing_ = Typing{id, frame, double(shown)};
+        return false;
+    }
+    if (wasTyped) {
+        typing_.reset();
+        if (shown == value || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) return false;
+    } else if (!changed) {
+        return false;
+    }
+    value = shown;
+    return true;
+}
+
 bool Ui::slider(const char* label, float& value, float min, float max, const char* format, bool logarithmic) {
     const ImGuiSliderFlags flags =
         ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
-    return placed(label, ImGui::SliderFloat(label, &value, min, max, format, flags));
+    constexpr int digits = 3;
+    const std::string plain = plainFormat(std::max(std::abs(value), 0.01f * max), digits);
+    return entered(label, value, [&](float& shown) {
+        return ImGui::SliderFloat(label, &shown, min, max, format != nullptr ? format : plain.c_str(), flags);
+    });
 }
 
 bool Ui::slider(const char* label, int& value, int min, int max, bool logarithmic) {
     const ImGuiSliderFlags flags =
         ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
-    return placed(label, ImGui::SliderInt(label, &value, min, max, "%d", flags));
+    return entered(label, value,
+                   [&](int& shown) { return ImGui::SliderInt(label, &shown, min, max, "%d", flags); });
 }
 
 bool Ui::drag(const char* label, float& value, float speed, float min, float max, const char* format) {
-    return placed(label,
-                  ImGui::DragFloat(label, &value, speed, min, max, format, ImGuiSliderFlags_AlwaysClamp));
+    const std::string plain = plainFormat(value);
+    return entered(label, value, [&](float& shown) {
+        return ImGui::DragFloat(label, &shown, speed, min, max, format != nullptr ? format : plain.c_str(),
+                                ImGuiSliderFlags_AlwaysClamp);
+    });
 }
 
 bool Ui::color(const char* label, glm::vec3& value) {
-    return placed(label, ImGui::ColorEdit3(label, &value[0], ImGuiColorEditFlags_Float));
+    const ImGuiID id = ImGui::GetID(label);
+    const bool wasTyped = typedColor_ && typedColor_->first == id;
+    glm::vec3 shown = wasTyped ? typedColor_->second : value;
+    const bool changed = placed(label, ImGui::ColorEdit3(label, &shown[0], ImGuiColorEditFlags_Float));
+    if (ImGui::IsItemActive() && ImGui::GetIO().WantTextInput) {
+        typedColor_ = std::pair(id, shown);
+        return false;
+    }
+    if (wasTyped) typedColor_.reset();
+    if (!changed && (!wasTyped || shown == value)) return false;
+    value = shown;
+    return true;
 }
 
 bool Ui::text(const char* label, std::string& value) {
