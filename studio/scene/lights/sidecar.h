@@ -71,7 +71,7 @@ std::string formatSidecar(const Sidecar& sidecar);
 std::string formatLight(const SidecarLight& light);
 
 /// Where the light's parent is at that moment: its node, the middle of that node's underside, or what a file
-/// of the scene's own coordinates is measured from. The scene has the node.
+/// of the scene's own coordinates is measured from. Throws InputError as applySidecar does.
 glm::dmat4 worldFromParent(const SidecarLight& light, const Scene& scene, const SceneMoment& moment);
 
 /// Replaces the scene's lights (if the sidecar has any say in them) and classifies its surfaces, at all

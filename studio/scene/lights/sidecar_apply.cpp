@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
@@ -253,8 +252,8 @@ class SidecarMotion : public Scene::Motion {
 
 glm::dmat4 worldFromParent(const SidecarLight& light, const Scene& scene, const SceneMoment& moment) {
     if (light.node.empty()) return light.isInWorld ? glm::dmat4(1) : scene.worldFromFile;
-    const auto node = std::ranges::find(scene.nodeNames, light.node) - scene.nodeNames.begin();
-    if (light.isBelow) return worldFromUnderside(scene, moment, int(node)).value();
+    const int node = NameIndex(scene.nodeNames, "node", "the lights").one(light.node, light.nodeLine);
+    if (light.isBelow) return worldFromUnderside(scene, moment, node).value();
     return moment.worldFromNode.at(std::size_t(node));
 }
 
