@@ -35,6 +35,14 @@ void bindMaskGroup(gl::Pass& pass, std::span<const unsigned> textures, int group
     }
 }
 
+/// Whether a receiver may see the light through six windows (light.glsl): any sphere, and distant lights of
+/// which an edge is more than 60 degrees from the middle.
+bool mayFillHalfTheSky(const AreaLight& light) {
+    constexpr float widest_rad = 1.0471f;  // 60 degrees, but for rounding
+    return light.shape == LightShape::sphere ||
+           (light.shape == LightShape::distant && 0.5f * light.angle_rad > widest_rad);
+}
+
 }  // namespace
 
 ExactVisibility::ExactVisibility(Device& device)
@@ -228,7 +236,7 @@ void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
     const int groups =
         std::max(int(maskTextures.size() + EXACT_GROUP_TEXTURES - 1) / EXACT_GROUP_TEXTURES, 1);
     const bool isCone = inputs.light.shape == LightShape::sphere || inputs.light.shape == LightShape::distant;
-    const int turns = groups * int(lattices.size()) * (isCone ? 6 : 1);
+    const int turns = groups * int(lattices.size()) * (mayFillHalfTheSky(inputs.light) ? 6 : 1);
     const ExactLight light = describeLight(inputs, lattices);
     const int turnRounds = roundsFor(lattices, countSpecial(light, inputs.light.shape));
     allocate(out.width_px(), out.height_px(), int(rows), turns * turnRounds);
