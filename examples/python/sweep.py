@@ -22,7 +22,7 @@ options.add_argument("--size", default="480x270", help="of the pictures, pixels"
 options.add_argument("--truth", type=int, default=1024, help="rays for each pixel of the truth")
 options.add_argument("--runs", type=int, default=3, help="of each technique, on the clock")
 arguments = options.parse_args()
-size = tuple(int(pixels) for pixels in arguments.size.split("x"))
+width, height = map(int, arguments.size.split("x"))
 
 # %% Measure
 #! [measure]
@@ -31,7 +31,7 @@ renderer = penumbra.Renderer()
 
 def measure(scene, truth, technique, parameters):
     """Milliseconds of all lights, and the root mean square error in their penumbrae."""
-    frame = renderer.render(scene, technique, parameters, size=size, timed_runs=arguments.runs)
+    frame = renderer.render(scene, technique, parameters, size=(width, height), timed_runs=arguments.runs)
     cost_ms = sum(np.median(runs) for runs in frame.milliseconds.values())
     errors = [penumbra.compare(truth.visibility[light], frame.visibility[light], truth.reach[light])
               for light in frame.lights]
@@ -39,10 +39,10 @@ def measure(scene, truth, technique, parameters):
 #! [measure]
 
 
-curves = {}
+curves: dict[tuple[str, str], list[tuple[float, float]]] = {}
 for name in SCENES:
     scene = penumbra.open_scene(name)
-    truth = renderer.render(scene, "reference", {"samples": arguments.truth}, size=size,
+    truth = renderer.render(scene, "reference", {"samples": arguments.truth}, size=(width, height),
                             progress=lambda share: print(f"\r{name}: truth {share:4.0%}", end="", flush=True))
     print()
     for technique, (parameter, values) in SWEPT.items():
