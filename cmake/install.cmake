@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # What `cmake --install` lays down, and how others find it. Components: library (what programs need to run),
-# development (headers, static library, CMake package, pkg-config), tools (the command), python (the module).
+# development (headers, static library, CMake package, pkg-config), tools (the command), documentation, python (the module).
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
@@ -27,60 +27,23 @@ install(FILES ${PROJECT_BINARY_DIR}/penumbra-config.cmake ${PROJECT_BINARY_DIR}/
 install(FILES ${PROJECT_BINARY_DIR}/penumbra.pc
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 
+include(cmake/packages.cmake)
+
 if(PENUMBRA_STUDIO)
     install(TARGETS penumbra_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
-    install(FILES docs/penumbra.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
+    compressed(${PROJECT_SOURCE_DIR}/docs/penumbra.1 ${PROJECT_BINARY_DIR}/penumbra.1.gz)
+    install(FILES ${PROJECT_BINARY_DIR}/penumbra.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
     install(FILES apps/penumbra/completion.bash
         DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME penumbra COMPONENT tools)
-endif()
+    install(FILES apps/penumbra/desktop/penumbra.desktop
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT tools)
+    install(FILES apps/penumbra/desktop/penumbra.svg
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps COMPONENT tools)
+    install(FILES docs/lights.schema.json docs/json.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/penumbra COMPONENT tools)
 
-# Each package keeps its own copy of the licence, where Debian looks for it.
-set(soversion ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-set(package_of_library libpenumbra${soversion})
-set(package_of_development libpenumbra-dev)
-set(package_of_tools penumbra)
-set(package_of_python python3-penumbra)
-foreach(component library development tools python)
-    install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package_of_${component}} RENAME copyright
-        COMPONENT ${component})
-endforeach()
-
-# Debian packages: `cpack -G DEB` in the build folder.
-set(CPACK_PACKAGE_VENDOR "Penumbra")
-set(CPACK_PACKAGE_CONTACT "Penumbra <penumbra@localhost>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
-set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL library development)
-if(PENUMBRA_STUDIO)
-    list(APPEND CPACK_COMPONENTS_ALL tools)
+    # As they lie here, so that what refers to each other does so there, too.
+    set(documentation ${CMAKE_INSTALL_DATADIR}/doc/${package_of_documentation})
+    install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${documentation} COMPONENT documentation)
+    install(DIRECTORY docs examples DESTINATION ${documentation} COMPONENT documentation
+        PATTERN penumbra.1 EXCLUDE PATTERN "__pycache__" EXCLUDE PATTERN "build*" EXCLUDE)
 endif()
-if(PENUMBRA_PYTHON)
-    list(APPEND CPACK_COMPONENTS_ALL python)
-endif()
-set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${package_of_library})
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/triggers)
-set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "${PROJECT_DESCRIPTION}: the shared library")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME ${package_of_development})
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "${package_of_library} (= ${PROJECT_VERSION}), libepoxy-dev")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${PROJECT_DESCRIPTION}: headers and static library")
-set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME ${package_of_tools})
-set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
-set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri")
-set(CPACK_COMPONENT_TOOLS_DESCRIPTION "${PROJECT_DESCRIPTION}: the command")
-if(PENUMBRA_PYTHON)
-    # A module is for the Python that it was built with.
-    math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
-    set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME ${package_of_python})
-    set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-    set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-        "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy, libegl1, libgl1-mesa-dri")
-    set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${PROJECT_DESCRIPTION}: the Python module")
-endif()
-include(CPack)
