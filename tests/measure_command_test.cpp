@@ -157,6 +157,17 @@ TEST_F(MeasureCommandTest, ADayHasLuxAndHours) {
     EXPECT_NE(readText(at("day.csv")).find("sun_hours,lux at 11:00"), std::string::npos);
 }
 
+TEST_F(MeasureCommandTest, WhatIsInterruptedLeavesNothing) {
+    for (const char* signal : {"INT", "TERM"}) {
+        const std::string command = std::string("timeout -s ") + signal + " 1 " PENUMBRA_COMMAND " measure " +
+                                    office + " --plane=-3,0.8,-2,6,4 --grid 1000x1000 --csv " + at("a.csv") +
+                                    " -o " + at("a.png") + " >" + at("stdout") + " 2>" + at("stderr");
+        EXPECT_NE(std::system(command.c_str()), 0) << "a million points in a second";
+        EXPECT_EQ(files(), std::vector<std::string>{}) << signal;
+        EXPECT_EQ(readText(at("stdout")), "") << signal;
+    }
+}
+
 /// Arguments after the scene, and what the message must hold.
 struct Refusal {
     int exitCode;

@@ -94,7 +94,12 @@ class MeasureCommand {
         workbench.open(scene);
         Progress progress("measure");
         options.progress = [&](double share) { progress.update(share); };
+        Measurement prepared;
+        if (arguments_.timedRuns > 0) prepared = measurement;
         measure(measurement, workbench, moment, *technique, options);
+        if (arguments_.timedRuns > 0)
+            measurement.cost =
+                timeRuns(prepared, workbench, moment, *technique, options, arguments_.timedRuns);
     }
 
     static void warnOf(const Measurement& measurement) {

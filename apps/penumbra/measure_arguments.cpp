@@ -88,6 +88,8 @@ void MeasureArguments::addTo(CLI::App& command) {
     command.add_option("--rows", rows, "A-B: these rows of the grid, or points of the list, alone");
     command.add_option("--merge", merge, "CSV files of pieces (--rows), put together instead of measuring");
     command.add_flag("--per-light", perLight, "what each light gives, too");
+    command.add_option("--timed-runs", timedRuns, "measure so many times more, and say what that costs")
+        ->check(CLI::Range(1, 1000));
     command.add_flag("--json", json, "print JSON and not a table");
     command.add_option("--csv", csv, "a row a point");
     command.add_option("-o,--output", plan, "the plan: .png or .svg");

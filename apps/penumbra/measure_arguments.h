@@ -21,6 +21,7 @@ struct MeasureArguments {
     std::vector<std::string> merge;
     std::string csv, plan;
     bool perLight = false, json = false;
+    int timedRuns = 0;
 
     void addTo(CLI::App& command);
 

@@ -102,6 +102,50 @@ TEST_F(LuxTest, OfASphereOverAPlane) {
     }
 }
 
+TEST_F(LuxTest, OfATubeOverAPlane) {
+    Light tube = downwards(LightShape::cylinder);
+    tube.shape.length_m = 1.2f;
+    tube.shape.radius_m = 0.05f;
+    const Scene scene = withGround(tube).build();
+    for (const glm::dvec3 point : {glm::dvec3(0, 0, 0), glm::dvec3(0.5, 0, 0.7), glm::dvec3(1.5, 0, 0.2)}) {
+        // The integral over its side, whose ends are open.
+        constexpr int alongs = 600, arounds = 400;
+        double truth = 0;
+        for (int a = 0; a < alongs; ++a) {
+            for (int b = 0; b < arounds; ++b) {
+                const double angle = 2 * pi * (b + 0.5) / arounds;
+                const glm::dvec3 normal(0, std::cos(angle), std::sin(angle));
+                const glm::dvec3 from =
+                    glm::dvec3(1.2 * ((a + 0.5) / alongs - 0.5), height_m, 0) + 0.05 * normal;
+                const glm::dvec3 away = point - from;
+                const double distance2 = glm::dot(away, away), leaves = glm::dot(normal, away);
+                if (leaves > 0 && away.y < 0) truth += luminance * leaves * -away.y / (distance2 * distance2);
+            }
+        }
+        truth *= 1.2 * 2 * pi * 0.05 / (alongs * arounds);
+        EXPECT_NEAR(luxAt(scene, point), truth, tolerance * truth) << point.x;
+    }
+}
+
+TEST_F(LuxTest, ProgressGoesOnToItsEnd) {
+    const Scene scene = makeBuiltin("many-lights");
+    const SceneMoment moment = scene.at(0);
+    const auto technique = workbench().makeTechnique("exact");
+    workbench().open(scene);
+    std::vector<double> shares;
+    const MeasuringOptions options{.progress = [&](double share) { shares.push_back(share); }};
+    Measurement measurement =
+        prepare(scene, moment, planeGrid({{-1, 0.01, -1}, 2, 2}, 8, 8, scene, moment), options);
+    measure(measurement, workbench(), moment, *technique, options);
+    EXPECT_GE(shares.size(), moment.lights.size());
+    EXPECT_TRUE(std::ranges::is_sorted(shares));
+    EXPECT_NEAR(shares.back(), 1, 1e-9);
+
+    const Measurement::Cost cost = timeRuns(measurement, workbench(), moment, *technique, options, 3);
+    EXPECT_EQ(cost.runs_ms.size(), 3u);
+    EXPECT_GT(std::ranges::min(cost.runs_ms), 0);
+}
+
 TEST_F(LuxTest, OfAHalfHiddenRectangle) {
     Light rect = downwards(LightShape::rect);
     SceneBuilder scene = withGround(rect);

@@ -13,6 +13,7 @@
 #include "studio/frame/point_lighting.h"
 #include "studio/measure/closed_bodies.h"
 #include "studio/measure/light_parts.h"
+#include "studio/workbench/cost_clock.h"
 #include "studio/workbench/parameter_list.h"
 
 namespace penumbra::studio {
@@ -235,6 +236,23 @@ void measure(Measurement& measurement, Device& device, PointLighting& lighting, 
         }
         addDay(measurement, points, which, meter, options, tell);
     }
+}
+
+Measurement::Cost timeRuns(const Measurement& prepared, Workbench& workbench, const SceneMoment& moment,
+                           Technique& technique, const MeasuringOptions& options, int runs) {
+    const CostClock clock(workbench.device());
+    Measurement::Cost cost{.runs_ms = {}, .clock = std::string(clock.name())};
+    // Other points in between, so that a technique has no answer left of the last run.
+    Measurement other = prepared;
+    other.set.points.resize(std::min<std::size_t>(other.set.points.size(), 1));
+    for (int run = 0; run < runs; ++run) {
+        Measurement again = other;
+        measure(again, workbench, moment, technique, options);
+        again = prepared;
+        cost.runs_ms.push_back(
+            clock.milliseconds([&] { measure(again, workbench, moment, technique, options); }));
+    }
+    return cost;
 }
 
 }  // namespace penumbra::studio

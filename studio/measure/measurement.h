@@ -40,6 +40,13 @@ struct Measurement {
     std::vector<OfTime> times;
     std::vector<float> sunHours;  ///< of a day, one a point: of direct sun
 
+    /// What measuring it again has cost, where that was asked for.
+    struct Cost {
+        std::vector<double> runs_ms;
+        std::string clock;  ///< as CostClock names it
+    };
+    Cost cost;
+
     bool counts(std::size_t point) const { return inside[point].empty(); }
 };
 
@@ -73,5 +80,10 @@ void measure(Measurement& measurement, Workbench& workbench, const SceneMoment& 
 /// The same of a scene that is at the moment already, with lighting of the same device that is kept.
 void measure(Measurement& measurement, Device& device, PointLighting& lighting, const GpuScene& scene,
              const SceneMoment& moment, Technique& technique, const MeasuringOptions& options);
+
+/// Measures what was `prepared` again, `runs` times, and returns what each run has cost: the device's work
+/// and what is read from it, with the technique and its trees at hand.
+Measurement::Cost timeRuns(const Measurement& prepared, Workbench& workbench, const SceneMoment& moment,
+                           Technique& technique, const MeasuringOptions& options, int runs);
 
 }  // namespace penumbra::studio
