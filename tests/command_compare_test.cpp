@@ -141,6 +141,10 @@ TEST_F(CommandTest, FlickerNeedsSomethingThatMoves) {
     EXPECT_EQ(moving.exitCode, 1) << "a hard edge that moves jumps from texel to texel";
     EXPECT_NE(moving.err.find("flicker is"), std::string::npos) << moving.err;
     EXPECT_GT(nlohmann::json::parse(moving.out).at("results").at(0).at("flicker"), 0);
+    const Outcome table = run("compare two-boxes -t hard --size 48x32 --samples 4 --flicker light");
+    EXPECT_NE(table.out.find("popping"), std::string::npos) << table.out;
+    EXPECT_EQ(run("compare two-boxes -t hard --size 48x32 --samples 4").out.find("popping"),
+              std::string::npos);
 }
 
 TEST_F(CommandTest, BenchKeepsItsContract) {

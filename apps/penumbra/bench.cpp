@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "apps/penumbra/arguments.h"
 #include "apps/penumbra/commands.h"
 #include "studio/bench/bench_report.h"
 #include "studio/errors.h"
+#include "studio/json_text.h"
 #include "studio/scene/lights/nearest_name.h"
 #include "studio/workbench/progress.h"
 
@@ -88,7 +88,7 @@ void bench(const BenchArguments& arguments) {
 
     if (!arguments.output.empty()) writeBench(arguments.output, report);
     if (arguments.json) {
-        std::cout << toJson(report).dump(2) << "\n";
+        std::cout << jsonText(toJson(report));
     } else {
         std::cout << toTable(report);
     }

@@ -20,6 +20,7 @@
 #include "studio/bench/judge.h"
 #include "studio/errors.h"
 #include "studio/image/atomic_file.h"
+#include "studio/json_text.h"
 #include "studio/report/ranking.h"
 #include "studio/scene/builtin/builtin.h"
 #include "studio/scene/lights/nearest_name.h"
@@ -214,12 +215,12 @@ void compare(const CompareArguments& arguments, const std::string& commandLine) 
         const std::filesystem::path folder = arguments.output;
         nlohmann::ordered_json file = {{"made", provenanceOf(machine, commandLine)}};
         file.update(results);
-        writeFileAtomically(folder / "results.json", file.dump(2) + "\n");
+        writeFileAtomically(folder / "results.json", jsonText(file));
         writeFileAtomically(folder / "results.csv", toCsv(comparisons));
         spdlog::info("pictures, EXR, report.html, results.json and results.csv are in {}", folder.string());
     }
     if (arguments.json) {
-        std::cout << results.dump(2) << "\n";
+        std::cout << jsonText(results);
     } else {
         for (const Comparison& comparison : comparisons) {
             if (!alone) std::cout << comparison.scene << "\n";

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iostream>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "studio/errors.h"
+#include "studio/json_text.h"
 #include "studio/scene/lights/nearest_name.h"
 #include "studio/scene/wildcard.h"
 
@@ -72,8 +74,7 @@ void printJson(const std::vector<NodeInfo>& nodes) {
                         {"materials", node.materials},
                         {"casts", node.casts},
                         {"receives", node.receives}});
-    constexpr int indent = 1;
-    fmt::print("{}\n", list.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    std::cout << jsonText(list);
 }
 
 }  // namespace

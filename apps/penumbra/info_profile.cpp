@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "studio/errors.h"
+#include "studio/json_text.h"
 #include "studio/scene/profiles/number_stream.h"
 #include "studio/scene/profiles/profile_file.h"
 
@@ -91,8 +92,7 @@ void printJson(const LightProfile& profile, const std::vector<Direction>& direct
     for (const Direction& d : directions)
         json["candela"].push_back(
             {{"gamma", d.gamma_deg}, {"c", d.c_deg}, {"cd", grid.at(directionOf(d.gamma_deg, d.c_deg))}});
-    // Names may be in Latin-1, as the files' texts are.
-    std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
+    std::cout << jsonText(json);
 }
 
 }  // namespace

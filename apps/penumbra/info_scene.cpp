@@ -10,6 +10,7 @@
 
 #include "penumbra/technique.h"
 #include "studio/errors.h"
+#include "studio/json_text.h"
 #include "studio/scene/profiles/profile_file.h"
 #include "studio/scene/solid.h"
 #include "studio/scene/topology.h"
@@ -230,7 +231,7 @@ void printScene(const Scene& scene, const std::string& name, double maxError, bo
     for (const Instance& instance : summary.moment.instances)
         summary.drawnTriangles += scene.meshes[std::size_t(instance.mesh)].indices.size() / 3;
     if (json) {
-        std::cout << toJson(summary).dump(2) << "\n";
+        std::cout << jsonText(toJson(summary));
     } else {
         printTable(summary);
     }

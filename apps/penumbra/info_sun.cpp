@@ -6,6 +6,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "studio/json_text.h"
+
 namespace penumbra::studio {
 
 void printSun(const SunOption& sun, bool json) {
@@ -17,7 +19,7 @@ void printSun(const SunOption& sun, bool json) {
                                                {"refracted_altitude_deg", position.refracted_altitude_deg},
                                                {"diameter_deg", position.diameter_deg},
                                                {"lux", position.illuminance_lux}};
-        std::cout << report.dump(2) << "\n";
+        std::cout << jsonText(report);
         return;
     }
     fmt::print("azimuth     {:.3f} degrees from north, clockwise\n", position.azimuth_deg);

@@ -9,6 +9,7 @@
 #include "apps/penumbra/commands.h"
 #include "studio/context/headless_context.h"
 #include "studio/errors.h"
+#include "studio/json_text.h"
 #include "studio/scene/builtin/builtin.h"
 #include "studio/workbench/parameter_list.h"
 
@@ -45,7 +46,7 @@ class ParameterLists {
             json["techniques"].push_back(
                 {{"technique", info.name}, {"summary", info.summary}, {"parameters", std::move(parameters)}});
         }
-        std::cout << json.dump(2) << "\n";
+        std::cout << jsonText(json);
     }
 
   private:

@@ -17,6 +17,7 @@
 #include "studio/errors.h"
 #include "studio/image/downsample.h"
 #include "studio/image/image_io.h"
+#include "studio/json_text.h"
 #include "studio/scene/builtin/builtin.h"
 #include "studio/scene/dark_light.h"
 #include "studio/workbench/progress.h"
@@ -112,8 +113,8 @@ void writePicture(const fs::path& path, const TechniqueResult& result, const Met
     }
 }
 
-/// Channel V for one light, LIGHT.V for several; V.R, V.G, V.B for a textured one. That of one light also as Y, or R, G and B,
-/// which every program shows.
+/// Channel V for one light, LIGHT.V for several; V.R, V.G, V.B for a textured one. That of one light also as
+/// Y, or R, G and B, which every program shows.
 void writeVisibility(const fs::path& path, const TechniqueResult& result, const Metadata& metadata) {
     ExrPicture picture{result.display.width_px, result.display.height_px, {}, metadata};
     for (const LightResult& light : result.lights) {
@@ -248,7 +249,7 @@ class RenderCommand {
             progress.update(done);
             renderFrame(workbench, techniques, scene, frame, size, outputs);
         }
-        if (arguments_.json) std::cout << report_.dump(2) << "\n";
+        if (arguments_.json) std::cout << jsonText(report_);
     }
 
   private:

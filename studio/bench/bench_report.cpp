@@ -11,6 +11,7 @@
 
 #include "studio/bench/bench_plots.h"
 #include "studio/image/atomic_file.h"
+#include "studio/json_text.h"
 #include "studio/report/html.h"
 
 namespace penumbra::studio {
@@ -229,7 +230,7 @@ void writeBench(const std::filesystem::path& folder, const BenchReport& report) 
         body += fmt::format("<h2>By {}</h2>\n{}{}<p>{}</p>\n", html::escape(axis.axis.title), svg,
                             html::table(table.header, table.rows), html::escape(leftOutSentence(axis)));
     }
-    writeFileAtomically(folder / "bench.json", toJson(report).dump(2) + "\n");
+    writeFileAtomically(folder / "bench.json", jsonText(toJson(report)));
     writeFileAtomically(folder / "bench.csv", toCsv(report));
     writeFileAtomically(folder / "tables.md", toMarkdown(report));
     writeFileAtomically(folder / "report.html", html::page("What shadows cost", body));

@@ -3,10 +3,12 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
+#include "studio/json_text.h"
 #include "studio/measure/measured_files.h"
 #include "studio/measure/measured_places.h"
 
@@ -58,6 +60,12 @@ std::map<std::string, std::size_t> bodiesOf(const Measurement& measurement) {
     return bodies;
 }
 
+/// The middle one, the least and the largest.
+std::array<double, 3> spreadOf(std::vector<double> runs_ms) {
+    std::ranges::sort(runs_ms);
+    return {runs_ms[runs_ms.size() / 2], runs_ms.front(), runs_ms.back()};
+}
+
 /// EN 17037:2018, 5.3: hours of sunlight exposure on the chosen day.
 constexpr double leastSun_h = 1.5;
 
@@ -72,8 +80,8 @@ double shareInSun(const Measurement& measurement) {
 void printJson(std::ostream& out, const Measurement& measurement, const Scene& scene,
                const MeasuringHeading& heading) {
     const StatedPlaces places(scene);
-    fmt::print(out, "{{\n \"scene\": {},\n \"technique\": {},\n", quoted(heading.scene),
-               quoted(heading.technique));
+    fmt::print(out, "{{\n \"format\": {},\n \"scene\": {},\n \"technique\": {},\n", jsonFormat,
+               quoted(heading.scene), quoted(heading.technique));
     const Summary lux = luxSummary(measurement);
     const bool any = lux.points > 0;
     fmt::print(out, " \"min\": {},\n \"mean\": {},\n \"max\": {},\n \"uniformity\": {},\n",
@@ -100,6 +108,12 @@ void printJson(std::ostream& out, const Measurement& measurement, const Scene& s
                        numberOrNull(at.max, any));
         }
         out << "\n ],\n";
+    }
+    if (!measurement.cost.runs_ms.empty()) {
+        const auto [median, min, max] = spreadOf(measurement.cost.runs_ms);
+        fmt::print(out,
+                   " \"ms\": {{\"median\": {:.3f}, \"min\": {:.3f}, \"max\": {:.3f}}},\n \"clock\": {},\n",
+                   median, min, max, quoted(measurement.cost.clock));
     }
     out << " \"points\": [";
     for (std::size_t i = 0; i < measurement.set.points.size(); ++i) {
@@ -145,6 +159,10 @@ void printTable(std::ostream& out, const Measurement& measurement, const Scene& 
     if (isDay) out << sunText(measurement) << "\n";
     for (const auto& [body, points] : bodiesOf(measurement))
         fmt::print(out, "{} points lie inside '{}' and are left out\n", points, body);
+    if (!measurement.cost.runs_ms.empty()) {
+        const auto [median, min, max] = spreadOf(measurement.cost.runs_ms);
+        fmt::print(out, "cost: {:.1f} ms ({:.1f} to {:.1f}), {}\n", median, min, max, measurement.cost.clock);
+    }
     if (measurement.set.cellsBeside > 0)
         fmt::print(out, "{} cells have nothing of the surface in their middle\n",
                    measurement.set.cellsBeside);

@@ -64,6 +64,22 @@ std::string promiseLine(const std::string& technique, const LightComparison& lig
     return line + "\n";
 }
 
+/// Of those of whom it was asked for.
+std::string flickerTable(const Comparison& comparison) {
+    std::string table;
+    for (const TechniqueComparison& technique : comparison.techniques) {
+        for (const LightComparison& light : technique.lights) {
+            if (!light.flicker) continue;
+            if (table.empty())
+                table =
+                    fmt::format("{:<14} {:<14} {:>9} {:>9}\n", "technique", "light", "flicker", "popping");
+            table += fmt::format("{:<14} {:<14} {:>9.4f} {:>8.2f}%\n", technique.technique, light.light,
+                                 light.flicker->rms, 100 * light.flicker->popping);
+        }
+    }
+    return table;
+}
+
 }  // namespace
 
 std::string fileStem(const std::string& technique) {
@@ -143,6 +159,7 @@ std::string toTable(const Comparison& comparison) {
                 100 * m.false_shadow, technique.flip, medianOf(light.milliseconds));
         }
     }
+    table += flickerTable(comparison);
     for (const TechniqueComparison& technique : comparison.techniques) {
         for (const LightComparison& light : technique.lights)
             table += promiseLine(technique.technique, light);
