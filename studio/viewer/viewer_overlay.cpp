@@ -90,12 +90,13 @@ void Viewer::drawOverlay() {
         return text;
     };
     const float margin = 10 * scale;
+    // Beneath a legend, which takes the middle.
+    const float top = min.y + margin + (choices.shown == Shown::picture ? 0 : 80 * scale);
     if (choices.flipped) {
-        boxed(list, {min.x + margin, min.y + margin}, named(1, choices.other), scale);
+        boxed(list, {min.x + margin, top}, named(1, choices.other), scale);
     } else {
-        boxed(list, {min.x + margin, min.y + margin}, named(0, choices.technique), scale);
-        if (choices.comparing)
-            boxed(list, {max.x - margin, min.y + margin}, named(1, choices.other), scale, 1);
+        boxed(list, {min.x + margin, top}, named(0, choices.technique), scale);
+        if (choices.comparing) boxed(list, {max.x - margin, top}, named(1, choices.other), scale, 1);
     }
     drawIsolineNumbers();
     drawLegend();

@@ -26,7 +26,8 @@ Display::Display(int dpi, const std::string& size) {
     for (char c = 0; read(ends[0], &c, 1) == 1 && c != '\n';) number += c;
     close(ends[0]);
     if (number.empty()) throw std::runtime_error("Xvfb does not start; is the package xvfb installed?");
-    setenv("DISPLAY", (":" + number).c_str(), 1);
+    name_ = ":" + number;
+    use();
     // Where desktops say how large things must be.
     const std::string resource =
         "xprop -root -f RESOURCE_MANAGER 8s -set RESOURCE_MANAGER 'Xft.dpi:\t" + std::to_string(dpi) + "\n'";
@@ -37,6 +38,10 @@ Display::~Display() {
     kill(process_, SIGTERM);
     waitpid(process_, nullptr, 0);
     unsetenv("DISPLAY");
+}
+
+void Display::use() const {
+    setenv("DISPLAY", name_.c_str(), 1);
 }
 
 void Display::input(const std::string& script) {

@@ -15,12 +15,16 @@ class Display {
     Display& operator=(const Display&) = delete;
     ~Display();
 
+    /// DISPLAY is set to it again, after others.
+    void use() const;
+
     /// Real events through the X server (XTEST); `script` is xdotool's, for instance "mousemove 10 20 click
     /// 1".
     static void input(const std::string& script);
 
   private:
     int process_ = 0;
+    std::string name_;
 };
 
 }  // namespace penumbra::studio::viewer

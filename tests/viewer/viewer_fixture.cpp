@@ -38,7 +38,7 @@ Display& ViewerTest::display() {
 }
 
 void ViewerTest::SetUp() {
-    display();
+    display().use();
     setOwnCache(at("cache"));
     setenv("XDG_CONFIG_HOME", at("config").c_str(), 1);
 }
