@@ -100,6 +100,32 @@ TEST_P(Contract, EveryLightShapeAndSideWorks) {
     }
 }
 
+TEST_P(Contract, SeveralLightsAtOnceGetTheBitsOfEachByItself) {
+    const Scene scene = withMoment(makeBuiltin("many-lights"), [](SceneMoment& moment) {
+        moment.lights[1].castsShadow = false;
+        moment.lights[2].shape.shape = LightShape::cylinder;
+        moment.lights[2].shape.length_m = 0.6f;
+        moment.lights[2].shape.radius_m = 0.05f;
+    });
+    const SceneMoment moment = scene.at(0);
+    workbench().open(scene);
+    const auto make = [&] {
+        std::unique_ptr<Technique> technique = workbench().makeTechnique(name());
+        for (const auto& [key, value] : quick()) setParameter(*technique, key, value);
+        return technique;
+    };
+    const std::unique_ptr<Technique> together = make();
+    const TechniqueResult result =
+        workbench().run(name(), *together, moment, moment.cameras.front(), {64, 48});
+    for (std::size_t i = 0; i < moment.lights.size(); ++i) {
+        const Light& light = moment.lights[i];
+        VisibilityBuffer out = workbench().frame().makeVisibility(light);
+        make()->render(workbench().frame().shadowInputs(light), out);
+        EXPECT_EQ(workbench().frame().readVisibility(out).values, result.lights[i].visibility.values)
+            << light.name;
+    }
+}
+
 TEST_P(Contract, LightOfSizeZeroIsAHardShadow) {
     // What is left is the map's resolution along shadow edges: at most 2 % of the pixels of these small
     // pictures.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The door: every row of the table in docs/manual/misuse.md, done.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <exception>
 #include <fstream>
@@ -131,6 +132,15 @@ Misuse::Calls Misuse::calls() {
     View& view = inputs_.view;
     AreaLight& light = inputs_.light;
     const auto render = [this](auto change) { return [this, change] { renderWrong([&] { change(); }); }; };
+    const auto renderLights = [this](auto secondBuffer) {
+        return [this, secondBuffer] {
+            prepare();
+            const std::array<FrameLight, 2> lights = {
+                FrameLight{.light = inputs_.light, .out = &*out_},
+                FrameLight{.light = inputs_.light, .out = secondBuffer()}};
+            technique_->renderLights({.view = inputs_.view, .casters = casters_, .lights = lights});
+        };
+    };
     const auto textured = [this](GLenum format, int layers, auto use) {
         return [=, this] { withTexture(format, layers, [&](GLuint name) { use(name); }); };
     };
@@ -221,6 +231,8 @@ Misuse::Calls Misuse::calls() {
              otherDevice_.emplace();
              out_.emplace(*otherDevice_, out_->width_px(), out_->height_px());
          })},
+        {"a light of a frame without a buffer", renderLights([] { return nullptr; })},
+        {"two lights of a frame with one buffer", renderLights([this] { return &*out_; })},
         {"a buffer that was moved from", render([this] { const VisibilityBuffer moved = std::move(*out_); })},
         {"a buffer whose texture is deleted", render([this] {
              const gl::Texture soonGone = texture(GL_R32F);

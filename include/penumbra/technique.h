@@ -3,7 +3,9 @@
 // the surface there see?
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -71,6 +73,25 @@ struct ShadowInputs {
     std::span<const Caster> casters{};
 };
 
+/// One of the lights of a frame.
+struct FrameLight {
+    AreaLight light{};
+    /// Filled as by Technique::render. Not null, and no other light's.
+    VisibilityBuffer* out = nullptr;
+    bool castsShadow = true;  ///< false: as if there were no casters
+};
+
+/// What the lights of a frame share, and the lights.
+struct FrameInputs {
+    View view{};
+    std::span<const Caster> casters{};
+    std::span<const FrameLight> lights{};
+    /// Called once for each light, in their order, with its place among them, when it has been answered.
+    /// Until it returns Technique::inspect and statistics tell of that light; nothing else may be called in
+    /// it. May be empty.
+    std::function<void(std::size_t light)> answered{};
+};
+
 struct Statistic {
     std::string_view name;  ///< "maps", "silhouette edges", ...; valid for ever
     double value = 0;
@@ -127,6 +148,10 @@ class PENUMBRA_API Technique {
     /// from call to call; what is allocated follows.
     virtual void render(const ShadowInputs& inputs, VisibilityBuffer& out) = 0;
 
+    /// Several lights of a frame at once: for each the bits that `render` gives for it. What follows from the
+    /// view and the casters alone is made once for all, where a technique can. There may be no light.
+    virtual void renderLights(const FrameInputs& frame);
+
     /// Whether `render` takes points in place of a picture (View::isOfPoints). Where it does not, it throws
     /// Error::Kind::badArgument for them.
     virtual bool answersAtPoints() const { return false; }
@@ -136,10 +161,11 @@ class PENUMBRA_API Technique {
     /// a warning in the log says so once.
     virtual bool answersTubes() const { return false; }
 
-    /// Visits the intermediate buffers of the last render.
+    /// Visits the intermediate buffers of the last render, or of the light that was answered last.
     virtual void inspect(InspectionVisitor&) const {}
 
-    /// Of the last render. Times of passes lag behind and wait for nothing; counts may wait for the device.
+    /// Of the last render, or of the light that was answered last. Times of passes lag behind and wait for
+    /// nothing; counts may wait for the device.
     virtual Statistics statistics() const { return {}; }
 };
 

@@ -87,26 +87,56 @@ Technique& Automatic::takeOneThat(bool (Technique::*answers)() const, const char
                                               ": take another than auto");
 }
 
+bool Automatic::hasBudget() const {
+    return budget_ms_ < std::numeric_limits<float>::infinity();
+}
+
+void Automatic::requirePromise() const {
+    if (candidates_.front().promise.penumbraRmse <= maxError_) return;
+    throw Error(Error::Kind::badArgument, "max_error: no technique promises less than " +
+                                              shortest(candidates_.front().promise.penumbraRmse) + ", not " +
+                                              shortest(maxError_));
+}
+
+/// Whether the technique whose turn it is does not answer a light.
+bool Automatic::takesAnotherFor(const AreaLight& light) {
+    return light.shape == LightShape::cylinder && !take(keeper_.current()).answersTubes();
+}
+
+Technique& Automatic::takeFor(const View& view, bool takesAnother) {
+    if (view.isOfPoints) return takeOneThat(&Technique::answersAtPoints, "at points");
+    return takesAnother ? takeOneThat(&Technique::answersTubes, "tubes") : take(keeper_.current());
+}
+
 void Automatic::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
-    if (candidates_.front().promise.penumbraRmse > maxError_) {
-        throw Error(Error::Kind::badArgument, "max_error: no technique promises less than " +
-                                                  shortest(candidates_.front().promise.penumbraRmse) +
-                                                  ", not " + shortest(maxError_));
-    }
-    const bool hasBudget = budget_ms_ < std::numeric_limits<float>::infinity();
-    if (hasBudget && frames_.begins(inputs)) endFrame();
-    keeper_.want(maxError_, budget_ms_);
+    requirePromise();
     // Points have no steady state whose time could be kept.
-    if (inputs.view.isOfPoints)
-        return takeOneThat(&Technique::answersAtPoints, "at points").render(inputs, out);
-    const bool isTube = inputs.light.shape == LightShape::cylinder;
-    Technique& technique = isTube && !take(keeper_.current()).answersTubes()
-                               ? takeOneThat(&Technique::answersTubes, "tubes")
-                               : take(keeper_.current());
-    if (hasBudget) {
+    const bool keepsTime = hasBudget() && !inputs.view.isOfPoints;
+    if (hasBudget() && frames_.begins(inputs)) endFrame();
+    keeper_.want(maxError_, budget_ms_);
+    Technique& technique = takeFor(inputs.view, takesAnotherFor(inputs.light));
+    if (keepsTime) {
         measure(inputs, out, technique);
     } else {
         technique.render(inputs, out);
+    }
+}
+
+void Automatic::renderLights(const FrameInputs& frame) {
+    if (hasBudget()) return Technique::renderLights(frame);
+    requirePromise();
+    keeper_.want(maxError_, budget_ms_);
+    // Those that stand side by side and have one technique at once.
+    const auto takesAnother = [&](const FrameLight& one) { return takesAnotherFor(one.light); };
+    for (auto begin = frame.lights.begin(); begin != frame.lights.end();) {
+        const bool isAnother = takesAnother(*begin);
+        const auto end = std::find_if(begin, frame.lights.end(),
+                                      [&](const FrameLight& one) { return takesAnother(one) != isAnother; });
+        FrameInputs part{.view = frame.view, .casters = frame.casters, .lights = {begin, end}};
+        const auto before = std::size_t(begin - frame.lights.begin());
+        if (frame.answered) part.answered = [&frame, before](std::size_t i) { frame.answered(before + i); };
+        takeFor(frame.view, isAnother).renderLights(part);
+        begin = end;
     }
 }
 

@@ -31,6 +31,8 @@ class Automatic final : public Technique {
     void describe(ParameterVisitor& visitor) override;
     /// Throws Error::Kind::badArgument where the error asked for is less than anybody promises.
     void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
+    /// Passed on; with a budget light by light, since each one's time counts.
+    void renderLights(const FrameInputs& frame) override;
     /// Through those that do.
     bool answersAtPoints() const override { return true; }
     bool answersTubes() const override { return true; }
@@ -38,6 +40,10 @@ class Automatic final : public Technique {
     Statistics statistics() const override;
 
   private:
+    void requirePromise() const;
+    bool hasBudget() const;
+    bool takesAnotherFor(const AreaLight& light);
+    Technique& takeFor(const View& view, bool takesAnother);
     Technique& take(std::size_t step);
     Technique& takeOneThat(bool (Technique::*answers)() const, const char* what);
     Technique& technique(std::string_view name) const;  ///< one that was made

@@ -258,11 +258,18 @@ void checkView(const View& view) {
     view.isOfPoints ? checkPoints(view) : checkPicture(view);
 }
 
-void checkInputs(const View& view, const AreaLight& light, const VisibilityBuffer& out,
-                 const Device::Internals& device) {
-    checkView(view);
-    checkLight(light);
-    checkOutput(out, view, light, device);
+void checkFrame(const FrameInputs& frame, const Device::Internals& device) {
+    checkView(frame.view);
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+        const auto& [light, out, castsShadow] = frame.lights[i];
+        const Argument argument("FrameInputs: lights", i, ".out");
+        if (out == nullptr) refuse(argument, "is null: give each light a VisibilityBuffer");
+        for (const FrameLight& before : frame.lights.first(i)) {
+            if (before.out == out) refuse(argument, "is another light's, too: give each light its own");
+        }
+        checkLight(light);
+        checkOutput(*out, frame.view, light, device);
+    }
 }
 
 void describeGuarded(Technique& technique, ParameterVisitor& visitor) {

@@ -38,10 +38,9 @@ void requireColorTexture(std::uint32_t texture, const Argument& argument);
 /// The view's part of what follows.
 void checkView(const View& view);
 
-/// Throws Error::Kind::badArgument where sizes, matrices, textures or numbers of the view, the light or the
+/// Throws Error::Kind::badArgument where sizes, matrices, textures or numbers of the view, a light or its
 /// buffer are outside their documented ranges or do not fit each other. To be called in a HostScope.
-void checkInputs(const View& view, const AreaLight& light, const VisibilityBuffer& out,
-                 const Device::Internals& device);
+void checkFrame(const FrameInputs& frame, const Device::Internals& device);
 
 /// Passes `visitor` on, and puts back what it leaves outside of a parameter's range, of which it throws
 /// Error::Kind::badArgument.

@@ -40,7 +40,7 @@ class HostView {
     explicit HostView(Device::Internals& device) : device_(device) {}
 
     /// The view in the form that techniques know, copied only where it has to be. It must pass
-    /// `checkInputs`, and its textures be readable. `casters`, of which there may be none, are what tells a
+    /// `checkFrame`, and its textures be readable. `casters`, of which there may be none, are what tells a
     /// polygon offset's slopes where there are no normals.
     View prepare(const View& view, std::span<const Caster> casters);
 

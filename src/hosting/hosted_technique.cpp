@@ -25,30 +25,40 @@ void HostedTechnique::describe(ParameterVisitor& visitor) {
 }
 
 void HostedTechnique::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
+    const FrameLight light{.light = inputs.light, .out = &out};
+    renderLights({.view = inputs.view, .casters = inputs.casters, .lights = {&light, 1}});
+}
+
+void HostedTechnique::renderLights(const FrameInputs& frame) {
     const HostScope scope(internalsOf(device_));
-    checkInputs(inputs.view, inputs.light, out, internalsOf(device_));
-    checkCasters(inputs.casters, internalsOf(device_));
-    if (inputs.view.isOfPoints && !answersAtPoints()) {
+    checkFrame(frame, internalsOf(device_));
+    checkCasters(frame.casters, internalsOf(device_));
+    if (frame.view.isOfPoints && !answersAtPoints()) {
         refuse("View: isOfPoints:",
                "this technique needs a picture: take one that answers at points, such as exact or auto");
     }
-    warnOfPolygonOffset(scope.hostsPolygonOffset(), inputs.view);
-    if (internalsOf(device_).diagnoses) diagnoseOnce(inputs);
-    const ReadableTexture depth(inputs.view.depthTexture), normals(inputs.view.normalTexture),
-        shadingNormals(inputs.view.shadingNormalTexture), receivers(inputs.view.receiverTexture);
-    VisibilityBuffer& written = plain(out);
-    warnOfTube(inputs.light);
-    technique_->render(
-        {view_.prepare(inputs.view, inputs.casters), lightFor(*technique_, inputs), inputs.casters}, written);
-    deliver(written, out);
+    warnOfPolygonOffset(scope.hostsPolygonOffset(), frame.view);
+    if (internalsOf(device_).diagnoses) diagnoseOnce(frame);
+    const ReadableTexture depth(frame.view.depthTexture), normals(frame.view.normalTexture),
+        shadingNormals(frame.view.shadingNormalTexture), receivers(frame.view.receiverTexture);
+    lights_.clear();
+    for (const auto& [light, out, castsShadow] : frame.lights) {
+        warnOfTube(light);
+        ShadowInputs inputs{.view = frame.view, .light = light};
+        if (castsShadow) inputs.casters = frame.casters;
+        lights_.push_back({lightFor(*technique_, inputs), &plain(*out, lights_.size()), castsShadow});
+    }
+    technique_->renderLights(
+        {view_.prepare(frame.view, frame.casters), frame.casters, lights_, frame.answered});
+    for (std::size_t i = 0; i < lights_.size(); ++i) deliver(*lights_[i].out, *frame.lights[i].out);
     // Whatever the host does with it next.
     internalsOf(device_).shaders.order()->makeAllVisible();
 }
 
-void HostedTechnique::diagnoseOnce(const ShadowInputs& inputs) {
-    if (inputs.view.isOfPoints || std::exchange(isDiagnosed_, true)) return;
+void HostedTechnique::diagnoseOnce(const FrameInputs& frame) {
+    if (frame.view.isOfPoints || std::exchange(isDiagnosed_, true)) return;
     for (const std::string& finding :
-         diagnoseInScope(internalsOf(device_), inputs.view, inputs.casters).findings)
+         diagnoseInScope(internalsOf(device_), frame.view, frame.casters).findings)
         internalsOf(device_).log.write(LogLevel::warning, "diagnosis: " + finding);
 }
 
@@ -70,14 +80,16 @@ void HostedTechnique::warnOfTube(const AreaLight& light) {
                                    "casters: exact and auto answer them as they are");
 }
 
-VisibilityBuffer& HostedTechnique::plain(VisibilityBuffer& out) {
+VisibilityBuffer& HostedTechnique::plain(VisibilityBuffer& out, std::size_t place) {
     if (internalsOf(out).isPlain()) return out;
-    if (!detour_ || detour_->colored() != out.colored()) {
-        detour_ = VisibilityBuffer::Internals::make(internalsOf(device_), out.width_px(), out.height_px(),
-                                                    out.colored());
+    if (detours_.size() <= place) detours_.resize(place + 1);
+    std::optional<VisibilityBuffer>& detour = detours_[place];
+    if (!detour || detour->colored() != out.colored()) {
+        detour = VisibilityBuffer::Internals::make(internalsOf(device_), out.width_px(), out.height_px(),
+                                                   out.colored());
     }
-    detour_->resize(out.width_px(), out.height_px());
-    return *detour_;
+    detour->resize(out.width_px(), out.height_px());
+    return *detour;
 }
 
 void HostedTechnique::deliver(const VisibilityBuffer& written, const VisibilityBuffer& out) {

@@ -3,8 +3,11 @@
 // state, the forms that its view and its texture for the answer may have, and a context that may be gone.
 #pragma once
 
+#include <cstddef>
+#include <deque>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "penumbra/technique.h"
 #include "src/hosting/host_view.h"
@@ -17,23 +20,25 @@ class HostedTechnique final : public Technique {
 
     void describe(ParameterVisitor& visitor) override;
     void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
+    void renderLights(const FrameInputs& frame) override;
     bool answersAtPoints() const override { return technique_->answersAtPoints(); }
     bool answersTubes() const override { return technique_->answersTubes(); }
     void inspect(InspectionVisitor& visitor) const override;
     Statistics statistics() const override;
 
   private:
-    void diagnoseOnce(const ShadowInputs& inputs);
+    void diagnoseOnce(const FrameInputs& frame);
     void warnOfPolygonOffset(const PolygonOffset& ofHost, const View& view);
     void warnOfTube(const AreaLight& light);
-    VisibilityBuffer& plain(VisibilityBuffer& out);
+    VisibilityBuffer& plain(VisibilityBuffer& out, std::size_t place);
     void deliver(const VisibilityBuffer& written, const VisibilityBuffer& out);
 
     Device device_;  ///< its own: the host may move or destroy the other
     std::unique_ptr<Technique> technique_;
     HostView view_;
-    std::optional<VisibilityBuffer>
-        detour_;  ///< for rectangles of the host's textures, and formats of its own
+    /// For rectangles of the host's textures, and formats of its own: by the light's place in its frame.
+    std::deque<std::optional<VisibilityBuffer>> detours_;
+    std::vector<FrameLight> lights_;  ///< as the technique gets them
     std::optional<TextureCopy> copy_;
     bool isDiagnosed_ = false;
     bool hasWarnedOfTube_ = false;

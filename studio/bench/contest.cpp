@@ -28,18 +28,26 @@ class Competitor {
         const std::size_t before_bytes = first ? memoryInUse_bytes() : 0;
         if (first) technique_ = makeIfThere(workbench_, result_.contender, result_.missing);
         if (technique_ == nullptr) return 0;
-        result_.passes_ms.clear();
-        double cost_ms = 0;
-        for (std::size_t i = 0; i < moment.lights.size(); ++i) {
-            const ShadowInputs inputs = workbench_.frame().shadowInputs(moment.lights[i]);
-            cost_ms += workbench_.clock().milliseconds([&] { technique_->render(inputs, visibilities[i]); });
-            for (const PassTime& pass : technique_->statistics().passes) {
-                result_.passes_ms[std::string(pass.name)] += pass.milliseconds;
-            }
-        }
+        const FrameRenderer& frame = workbench_.frame();
+        const std::vector<FrameLight> lights = frame.frameLights(moment.lights, visibilities);
+        const FrameInputs inputs = frame.frameInputs(lights);
+        const double cost_ms = workbench_.clock().milliseconds([&] { technique_->renderLights(inputs); });
         if (first) result_.memory_bytes = memoryInUse_bytes() - before_bytes;
         spent_ms_ += cost_ms;
         return cost_ms;
+    }
+
+    /// Renders all lights once more, to ask each what its passes took.
+    void takePasses(const SceneMoment& moment, std::vector<VisibilityBuffer>& visibilities) {
+        if (technique_ == nullptr) return;
+        const FrameRenderer& frame = workbench_.frame();
+        const std::vector<FrameLight> lights = frame.frameLights(moment.lights, visibilities);
+        FrameInputs inputs = frame.frameInputs(lights);
+        inputs.answered = [&](std::size_t) {
+            for (const PassTime& pass : technique_->statistics().passes)
+                result_.passes_ms[std::string(pass.name)] += pass.milliseconds;
+        };
+        technique_->renderLights(inputs);
     }
 
     void count(double cost_ms, double yardstick_ms) {
@@ -113,11 +121,7 @@ std::vector<ContestResult> runContest(Workbench& workbench, const SceneMoment& m
         const SceneMoment now = options.moving ? stirred(moment, round) : moment;
         workbench.scene().update(now);
         workbench.frame().draw(workbench.scene(), now, camera, size.width_px, size.height_px);
-        if (visibilities.empty()) {
-            for (const Light& light : now.lights) {
-                visibilities.push_back(workbench.frame().makeVisibility(light));
-            }
-        }
+        if (visibilities.empty()) visibilities = workbench.frame().makeVisibilities(now.lights);
         double yardstick_ms = 0;
         for (std::size_t i = 0; i < competitors.size(); ++i) {
             options.progress((double(round + options.warmUpRounds) + double(i) / double(competitors.size())) /
@@ -126,6 +130,7 @@ std::vector<ContestResult> runContest(Workbench& workbench, const SceneMoment& m
             const double cost_ms = competitors[i].render(now, visibilities);
             if (i == 0) yardstick_ms = cost_ms;
             if (round >= 0) competitors[i].count(cost_ms, yardstick_ms);
+            if (round + 1 == options.rounds) competitors[i].takePasses(now, visibilities);
         }
     }
     std::vector<ContestResult> results;

@@ -41,8 +41,9 @@ struct ContestResult {
     Spread cost_ms;       ///< of a frame, all lights together, on the workbench's clock
     Spread ratio;         ///< to `hard` in the same round
     int rounds = 0;       ///< measured; fewer than asked for if patience ended
-    std::map<std::string, double> passes_ms;  ///< device timestamps of the last round, all lights together
-    std::size_t memory_bytes = 0;             ///< textures and buffers that it holds on the device
+    std::map<std::string, double>
+        passes_ms;  ///< device timestamps after the last round, all lights together; none if patience ended
+    std::size_t memory_bytes = 0;  ///< textures and buffers that it holds on the device
 };
 
 struct ContestOptions {

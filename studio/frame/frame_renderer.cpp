@@ -82,6 +82,29 @@ VisibilityBuffer FrameRenderer::makeVisibility(const Light& light) const {
     return VisibilityBuffer(device_, display_.width_px(), display_.height_px(), light.texture >= 0);
 }
 
+std::vector<VisibilityBuffer> FrameRenderer::makeVisibilities(std::span<const Light> lights) const {
+    std::vector<VisibilityBuffer> made;
+    for (const Light& light : lights) made.push_back(makeVisibility(light));
+    return made;
+}
+
+FrameLight FrameRenderer::frameLight(const Light& light, VisibilityBuffer& out) const {
+    FrameLight one{.light = light.shape, .out = &out, .castsShadow = light.castsShadow};
+    one.light.radianceTexture = scene_->radianceTexture(light.texture);
+    return one;
+}
+
+std::vector<FrameLight> FrameRenderer::frameLights(std::span<const Light> lights,
+                                                   std::span<VisibilityBuffer> out) const {
+    std::vector<FrameLight> all;
+    for (std::size_t i = 0; i < lights.size(); ++i) all.push_back(frameLight(lights[i], out[i]));
+    return all;
+}
+
+FrameInputs FrameRenderer::frameInputs(std::span<const FrameLight> lights) const {
+    return {.view = gbuffer_.view(), .casters = scene_->casters(), .lights = lights};
+}
+
 void FrameRenderer::addLight(const Light& light, const VisibilityBuffer& visibility) {
     const gl::DebugGroup group("lighting");
     const glm::dmat4 fromLight = worldFromLight(light.shape, camera_);

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "penumbra/penumbra.h"
 #include "src/gl/shader_library.h"
@@ -13,14 +15,12 @@
 
 namespace penumbra::studio {
 
-/// The frame: scene -> G-buffer -> (a technique, light by light) -> lighting -> image. In this order:
+/// The frame: scene -> G-buffer -> (a technique, all lights) -> lighting -> image. In this order:
 ///
 ///     frame.draw(scene, moment, camera, width_px, height_px);
-///     for (const Light& light : moment.lights) {
-///         VisibilityBuffer visibility = frame.makeVisibility(light);
-///         technique.render(frame.shadowInputs(light), visibility);
-///         frame.addLight(light, visibility);
-///     }
+///     std::vector<VisibilityBuffer> visibilities = frame.makeVisibilities(moment.lights);
+///     technique.renderLights(frame.frameInputs(frame.frameLights(moment.lights, visibilities)));
+///     for (i ...) frame.addLight(moment.lights[i], visibilities[i]);
 ///     Image picture = frame.readDisplay();
 class FrameRenderer {
   public:
@@ -41,6 +41,12 @@ class FrameRenderer {
     /// What a technique needs to know; without casters for a light that casts no shadow.
     ShadowInputs shadowInputs(const Light& light) const;
     VisibilityBuffer makeVisibility(const Light& light) const;
+
+    /// The same for several lights at once.
+    std::vector<VisibilityBuffer> makeVisibilities(std::span<const Light> lights) const;
+    FrameLight frameLight(const Light& light, VisibilityBuffer& out) const;
+    std::vector<FrameLight> frameLights(std::span<const Light> lights, std::span<VisibilityBuffer> out) const;
+    FrameInputs frameInputs(std::span<const FrameLight> lights) const;
 
     /// Adds a light times its visibility.
     void addLight(const Light& light, const VisibilityBuffer& visibility);

@@ -20,6 +20,12 @@ void copy(const gl::Texture& from, gl::Texture& to, std::string_view label) {
                        from.width_px(), from.height_px(), 1);
 }
 
+void showTruth(VisibilityBuffer& visibility, const ProgressiveReference::Level* truth, std::size_t light) {
+    if (truth != nullptr) return writeVisibility(truth->lights[light].visibility, visibility);
+    constexpr std::array<float, 4> all = {1, 1, 1, 1};
+    glClearTexImage(visibility.texture(), 0, GL_RGBA, GL_FLOAT, all.data());
+}
+
 }  // namespace
 
 void Sides::draw(const Document& document, const Camera& camera, int width_px, int height_px) {
@@ -43,6 +49,15 @@ void Sides::fit(Side& side, const std::vector<Light>& lights) {
     }
 }
 
+void Sides::shadow(Side& side, Technique& technique, const std::vector<Light>& lights,
+                   std::span<const std::size_t> asked) {
+    std::vector<FrameLight> together;
+    for (const std::size_t i : asked) together.push_back(frame_.frameLight(lights[i], side.visibilities[i]));
+    FrameInputs inputs = frame_.frameInputs(together);
+    inputs.answered = [&](std::size_t i) { side.statistics[asked[i]].statistics = technique.statistics(); };
+    technique.renderLights(inputs);
+}
+
 void Sides::light(std::size_t index, const Document& document, const std::vector<std::string>& names,
                   TechniqueBank& techniques, const ProgressiveReference::Level* truth, std::size_t last) {
     const std::vector<Light>& lights = document.moment().lights;
@@ -50,24 +65,28 @@ void Sides::light(std::size_t index, const Document& document, const std::vector
     fit(side, lights);
     side.statistics.assign(lights.size(), {});
 
-    const auto shadow = [&](std::size_t i) {
-        VisibilityBuffer& visibility = side.visibilities[i];
-        side.statistics[i] = {lights[i].name, names[i], {}};
-        if (names[i] != referenceName) {
-            Technique& technique = techniques.get(names[i]);
-            technique.render(frame_.shadowInputs(lights[i]), visibility);
-            side.statistics[i].statistics = technique.statistics();
-        } else if (truth != nullptr) {
-            writeVisibility(truth->lights[i].visibility, visibility);
-        } else {
-            constexpr std::array<float, 4> all = {1, 1, 1, 1};
-            glClearTexImage(visibility.texture(), 0, GL_RGBA, GL_FLOAT, all.data());
-        }
-    };
+    // A technique's lights at once; last the one whose intermediate buffers are shown.
+    std::vector<std::size_t> order;
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (i != last) shadow(i);
+        side.statistics[i] = {lights[i].name, names[i], {}};
+        if (i != last) order.push_back(i);
     }
-    if (last < lights.size()) shadow(last);
+    if (last < lights.size()) {
+        order.push_back(last);
+        std::ranges::stable_partition(order, [&](std::size_t i) { return names[i] != names[last]; });
+    }
+    for (auto begin = order.begin(); begin != order.end();) {
+        const std::string& name = names[*begin];
+        const auto end =
+            std::stable_partition(begin, order.end(), [&](std::size_t i) { return names[i] == name; });
+        const std::span<const std::size_t> asked(begin, end);
+        if (name != referenceName) {
+            shadow(side, techniques.get(name), lights, asked);
+        } else {
+            for (const std::size_t i : asked) showTruth(side.visibilities[i], truth, i);
+        }
+        begin = end;
+    }
 
     // In the scene's order, as the command does: floating-point sums depend on it.
     frame_.beginLighting();

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +50,8 @@ class Sides {
 
   private:
     void fit(Side& side, const std::vector<Light>& lights);
+    void shadow(Side& side, Technique& technique, const std::vector<Light>& lights,
+                std::span<const std::size_t> asked);
 
     Device& device_;
     FrameRenderer& frame_;

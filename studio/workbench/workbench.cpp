@@ -41,21 +41,34 @@ TechniqueResult Workbench::run(std::string_view name, const TechniqueOf& techniq
     scene_->update(moment);
     frame_.draw(*scene_, moment, camera, size.width_px, size.height_px);
 
-    TechniqueResult result{.technique = std::string(name)};
-    for (const Light& light : moment.lights) {
-        Technique& technique = techniqueOf(light);
-        LightResult& lightResult = result.lights.emplace_back();
+    TechniqueResult result{.technique = std::string(name),
+                           .lights = std::vector<LightResult>(moment.lights.size())};
+    std::vector<VisibilityBuffer> visibilities = frame_.makeVisibilities(moment.lights);
+    std::vector<Technique*> techniques;
+    for (const Light& light : moment.lights) techniques.push_back(&techniqueOf(light));
+    // Lights side by side that have one technique at once.
+    for (std::size_t begin = 0, end = 0; begin < moment.lights.size(); begin = end) {
+        while (end < moment.lights.size() && techniques[end] == techniques[begin]) ++end;
+        const std::vector<FrameLight> lights =
+            frame_.frameLights(std::span(moment.lights).subspan(begin, end - begin),
+                               std::span(visibilities).subspan(begin, end - begin));
+        FrameInputs inputs = frame_.frameInputs(lights);
+        inputs.answered = [&](std::size_t i) {
+            result.lights[begin + i].statistics = techniques[begin]->statistics();
+        };
+        techniques[begin]->renderLights(inputs);
+    }
+    for (std::size_t i = 0; i < moment.lights.size(); ++i) {
+        const Light& light = moment.lights[i];
+        LightResult& lightResult = result.lights[i];
         lightResult.light = light.name;
-        const ShadowInputs inputs = frame_.shadowInputs(light);
-        VisibilityBuffer visibility = frame_.makeVisibility(light);
-        technique.render(inputs, visibility);
-        for (int i = 0; i < timedRuns; ++i) {
-            lightResult.milliseconds.push_back(
-                clock_.milliseconds([&] { technique.render(inputs, visibility); }));
+        for (int run = 0; run < timedRuns; ++run) {
+            lightResult.milliseconds.push_back(clock_.milliseconds(
+                [&] { techniques[i]->render(frame_.shadowInputs(light), visibilities[i]); }));
+            lightResult.statistics = techniques[i]->statistics();
         }
-        lightResult.visibility = frame_.readVisibility(visibility);
-        lightResult.statistics = technique.statistics();
-        frame_.addLight(light, visibility);
+        lightResult.visibility = frame_.readVisibility(visibilities[i]);
+        frame_.addLight(light, visibilities[i]);
         lightResult.reach = frame_.readReach();
     }
     result.display = frame_.readDisplay();

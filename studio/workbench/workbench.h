@@ -62,7 +62,8 @@ class Workbench {
     /// Takes the scene in; it must outlive its use. Replaces the one before.
     void open(const Scene& scene);
 
-    /// Renders all lights of `moment`, each once, and then `timedRuns` more times with the clock running.
+    /// Renders all lights of `moment` at once, and then each by itself `timedRuns` times with the clock
+    /// running.
     TechniqueResult run(std::string_view name, Technique& technique, const SceneMoment& moment,
                         const Camera& camera, PictureSize size, int timedRuns = 0);
     /// The same where lights have techniques of their own.

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
 // For each tile of 8 x 8 receivers, the nodes of the tree that may stand between them and the light; and, where there are
-// none and no horizon cuts the light, what its pixels see. One invocation a tile.
+// none and no horizon cuts the light, or none of it can be seen, what its pixels see. One invocation a tile.
 layout(local_size_x = 32) in;
 
-#include "src/techniques/common/view.glsl"
+#include "src/techniques/exact_visibility/receivers.glsl"
 #include "src/techniques/exact_visibility/light.glsl"
 #include "src/techniques/exact_visibility/tree.glsl"
 #include "src/techniques/exact_visibility/underfoot.glsl"
 #include "src/techniques/exact_visibility/exact_io.h"
 
-layout(std430) writeonly buffer Candidates { uint candidates[]; };  // light.tileCapacity a tile
+layout(std430) writeonly buffer Candidates { uint candidates[]; };  // frame.tileCapacity a tile
 layout(std430) writeonly buffer TileLists { TileList tileLists[]; };
 layout(std430) buffer Busy { BusyTiles busy; uint busyTiles[]; };
 layout(std140) uniform Constants { ExactKeeping keeping; };
+layout(std430) readonly buffer Tiles { TileBounds tileBounds[]; };
 layout(std430) readonly buffer TileRevisions { uint tileRevisions[]; };
 layout(std430) readonly buffer Weights { uint weightsChangedAt; };
 layout(std430) buffer MadeAt { uint madeAt[]; };                 // of the kept tiles, plus 1
@@ -21,22 +22,12 @@ layout(std430) readonly buffer ChangedBoxes { vec4 changed[]; };  // low and hig
 uniform writeonly image2D visibility;
 layout(r16f) uniform writeonly image2D errorBound;
 
-struct Bounds {
-    vec3 low, high;
-    vec3 normal;        // of one of the receivers
-    float otherNormal;  // how far those of the others are from it
-    float lowest;       // the least of dot(normal, position)
-    int count;
-    bool isCut;         // a horizon may cut the light
-};
-
 bool canSeeLight(Receiver receiver, vec3 apex) {
     SeenLight seen = seeLight(apex);
     if (seen.patches == 0) return false;
     if (light.emitter.shape == shapeDistant) {
         // The nearest the cone comes to the normal.
-        float sine = sqrt(max(1.0 - light.coneCosine * light.coneCosine, 0.0));
-        return dot(receiver.normalLight, light.axisZ) > -sine - 1e-5 || light.coneCosine < 0.0;
+        return dot(receiver.normalLight, light.axisZ) > -light.coneSine - 1e-5 || light.coneCosine < 0.0;
     }
     vec3 farthest = mix(light.boxMin, light.boxMax, greaterThan(receiver.normalLight, vec3(0.0)));
     return dot(receiver.normalLight, farthest - receiver.posLight) > 0.0;
@@ -44,31 +35,54 @@ bool canSeeLight(Receiver receiver, vec3 apex) {
 
 // Whether all of the light is above the horizon, and far from it for what rounding does.
 bool canSeeWholeLight(Receiver receiver) {
-    if (light.emitter.shape == shapeDistant) {
-        float sine = sqrt(max(1.0 - light.coneCosine * light.coneCosine, 0.0));
-        return dot(receiver.normalLight, light.axisZ) > sine + 1e-4 && light.coneCosine > 0.0;
-    }
+    if (light.emitter.shape == shapeDistant)
+        return dot(receiver.normalLight, light.axisZ) > light.coneSine + 1e-4 && light.coneCosine > 0.0;
     vec3 nearest = mix(light.boxMax, light.boxMin, greaterThan(receiver.normalLight, vec3(0.0))) - receiver.posLight;
     return dot(receiver.normalLight, nearest) > 1e-4 * length(nearest);
 }
 
-Bounds boundsOf(ivec2 tile) {
-    Bounds bounds = Bounds(vec3(3e38), vec3(-3e38), vec3(0.0), 0.0, 3e38, 0, false);
-    for (int i = 0; i < 64; ++i) {
-        ivec2 pixel = 8 * tile + ivec2(i & 7, i >> 3);
-        Receiver receiver;
-        if (any(greaterThanEqual(pixel, view.size_px)) || !loadReceiver(pixel, receiver)) continue;
-        vec3 apex = apexOf(receiver);
-        if (!canSeeLight(receiver, apex)) continue;
-        if (bounds.count == 0) bounds.normal = receiver.normalLight;
-        bounds.otherNormal = max(bounds.otherNormal, distance(bounds.normal, receiver.normalLight));
-        bounds.lowest = min(bounds.lowest, dot(bounds.normal, apex));
-        bounds.low = min(bounds.low, apex);
-        bounds.high = max(bounds.high, apex);
-        bounds.isCut = bounds.isCut || !canSeeWholeLight(receiver);
-        ++bounds.count;
-    }
-    return bounds;
+// How far it is at most from one of the receivers to a point of the light.
+float farthestFromLight(TileBounds bounds) {
+    return distance(0.5 * (bounds.low + bounds.high), 0.5 * (light.boxMin + light.boxMax)) +
+           0.5 * (distance(bounds.low, bounds.high) + distance(light.boxMin, light.boxMax));
+}
+
+// More than rounding does to heights above receivers, metres.
+float heightRounding(TileBounds bounds) {
+    vec3 size = max(max(abs(bounds.low), abs(bounds.high)), max(abs(light.boxMin), abs(light.boxMax)));
+    return 1e-5 * (size.x + size.y + size.z + distance(frame.eye, 0.5 * (bounds.low + bounds.high)));
+}
+
+// How far a flat light's centre is before its own plane, as the receivers see it: least and most.
+vec2 beforeFlatLight(TileBounds bounds) {
+    float middle = dot(light.axisZ, light.center - 0.5 * (bounds.low + bounds.high));
+    float reach = 0.5 * dot(abs(light.axisZ), bounds.high - bounds.low);
+    return vec2(middle - reach, middle + reach);
+}
+
+// Whether none of the receivers sees any of the light, whatever stands between; or there is none.
+bool isDark(TileBounds bounds) {
+    if (bounds.otherNormal < 0.0) return true;
+    if (light.emitter.shape == shapeDistant)
+        return dot(bounds.normal, light.axisZ) + bounds.otherNormal < -light.coneSine - 1e-4 && light.coneCosine >= 0.0;
+    float rounded = heightRounding(bounds);
+    if (isFlat() && light.emitter.isOneSided && beforeFlatLight(bounds).y < -rounded) return true;
+    vec3 highest = mix(light.boxMin, light.boxMax, greaterThan(bounds.normal, vec3(0.0)));
+    return dot(bounds.normal, highest) - bounds.lowest + bounds.otherNormal * farthestFromLight(bounds) < -rounded;
+}
+
+// Whether each of the receivers sees all of the light, where nothing stands between. Beyond the ends of a tube one may be
+// within it, which is left to each of them.
+bool isAboveHorizon(TileBounds bounds) {
+    if (bounds.otherNormal < 0.0 || isTube()) return false;
+    if (light.emitter.shape == shapeDistant)
+        return dot(bounds.normal, light.axisZ) - bounds.otherNormal > light.coneSine + 2e-4 && light.coneCosine > 0.0;
+    float rounded = heightRounding(bounds), away = farthestFromLight(bounds);
+    vec2 before = beforeFlatLight(bounds);
+    float least = 1e-6 * away + rounded;
+    if (isFlat() && before.x < least && (light.emitter.isOneSided || before.y > -least)) return false;
+    vec3 lowest = mix(light.boxMax, light.boxMin, greaterThan(bounds.normal, vec3(0.0)));
+    return dot(bounds.normal, lowest) - bounds.highest - bounds.otherNormal * away > 2e-4 * away + rounded;
 }
 
 // Planes that have the tile and the light on one side: what lies beyond one of them is in nobody's way. Each leans so
@@ -79,7 +93,7 @@ struct Sides {
 
 // `across` is a direction in which the light reaches `size` from its centre, `along` one in which it has no extent; of
 // spheres and tubes `radius` is added along the whole normal.
-vec4 sideOf(Bounds bounds, vec3 across, vec3 along, float size, float radius) {
+vec4 sideOf(TileBounds bounds, vec3 across, vec3 along, float size, float radius) {
     vec3 middle = 0.5 * (bounds.low + bounds.high), extent = 0.5 * (bounds.high - bounds.low);
     bool isDistant = light.emitter.shape == shapeDistant;
     vec3 normal = across;
@@ -92,7 +106,7 @@ vec4 sideOf(Bounds bounds, vec3 across, vec3 along, float size, float radius) {
     }
     // Of a distant light's directions none leads across the plane, unless they fill half of the sky.
     if (isDistant && light.coneCosine <= 0.0) return vec4(normal, 3e38);
-    if (isDistant) normal = light.coneCosine * across - sqrt(max(1.0 - light.coneCosine * light.coneCosine, 0.0)) * along;
+    if (isDistant) normal = light.coneCosine * across - light.coneSine * along;
     float ofTile = dot(normal, middle) + dot(abs(normal), extent);
     float ofLight = dot(normal, light.center) + size + radius * length(normal);
     float reach = isDistant ? ofTile : max(ofTile, ofLight);
@@ -100,7 +114,7 @@ vec4 sideOf(Bounds bounds, vec3 across, vec3 along, float size, float radius) {
     return vec4(normal, reach + 4e-6 * dot(abs(normal), largest));
 }
 
-Sides sidesOf(Bounds bounds) {
+Sides sidesOf(TileBounds bounds) {
     vec3 middle = 0.5 * (bounds.low + bounds.high);
     vec3 x = light.axisX, y = light.axisY, along = light.axisZ;
     vec2 size = light.emitter.halfSize;
@@ -135,7 +149,7 @@ bool isBoxBeyond(vec4 plane, vec3 middle, vec3 extent) {
 }
 
 // Whether a box may be in the way. What is below all receivers' planes is not.
-bool mayBlockTile(Shaft shaft, Sides sides, Bounds bounds, TreeNode node) {
+bool mayBlockTile(Shaft shaft, Sides sides, TileBounds bounds, TreeNode node) {
     vec3 middle = 0.5 * (node.boxMin + node.boxMax), extent = 0.5 * (node.boxMax - node.boxMin);
     vec3 away = abs(middle - 0.5 * (bounds.low + bounds.high)) + extent + 0.5 * (bounds.high - bounds.low);
     float height = dot(bounds.normal, middle) + dot(abs(bounds.normal), extent) - bounds.lowest +
@@ -146,7 +160,7 @@ bool mayBlockTile(Shaft shaft, Sides sides, Bounds bounds, TreeNode node) {
 }
 
 // Whether all receivers lie on the triangle (see underfoot.glsl, whose tolerance is twice this), or above it.
-bool isUnderfootOfTile(Bounds bounds, vec3 a, vec3 b, vec3 c) {
+bool isUnderfootOfTile(TileBounds bounds, vec3 a, vec3 b, vec3 c) {
     vec3 middle = 0.5 * (bounds.low + bounds.high), extent = 0.5 * (bounds.high - bounds.low);
     vec3 across = cross(b - a, c - a);
     vec3 normal = sign(dot(across, bounds.normal)) * normalize(across);
@@ -159,7 +173,7 @@ bool isUnderfootOfTile(Bounds bounds, vec3 a, vec3 b, vec3 c) {
 }
 
 // The same as mayBlockTile, for a triangle.
-bool mayHideFromTile(Bounds bounds, Sides sides, uint triangle) {
+bool mayHideFromTile(TileBounds bounds, Sides sides, uint triangle) {
     vec3 a = loadCorner(triangle, 0u), b = loadCorner(triangle, 1u), c = loadCorner(triangle, 2u);
     bool isBeside = isBeyond(sides.planes[0], a, b, c) || isBeyond(sides.planes[1], a, b, c) ||
                     isBeyond(sides.planes[2], a, b, c) || isBeyond(sides.planes[3], a, b, c);
@@ -168,7 +182,7 @@ bool mayHideFromTile(Bounds bounds, Sides sides, uint triangle) {
 
 // Of what size things are, far from the tile by a metre, between which and the light's samples there is no more to gain
 // from looking at their parts: about two samples apart.
-float wholeSize(Bounds bounds) {
+float wholeSize(TileBounds bounds) {
     float spacing = length(light.uvFromI);
     if (light.emitter.shape == shapeDistant) return 2.0 * spacing * min(light.emitter.halfSize.x, widestTangent);
     float distance_m = distance(light.center, 0.5 * (bounds.low + bounds.high));
@@ -176,13 +190,13 @@ float wholeSize(Bounds bounds) {
 }
 
 // Whether a node is listed as a whole. Any choice gives the same result.
-bool isSmall(Bounds bounds, float size, TreeNode node) {
+bool isSmall(TileBounds bounds, float size, TreeNode node) {
     float away = distance(0.5 * (node.boxMin + node.boxMax), 0.5 * (bounds.low + bounds.high));
     return 0.5 * distance(node.boxMin, node.boxMax) < size * away;
 }
 
 // Whether a box may reach the light, so that it depends on the sample what blocks; or its plane.
-bool mayReachLight(Bounds bounds, vec3 boxMin, vec3 boxMax) {
+bool mayReachLight(TileBounds bounds, vec3 boxMin, vec3 boxMax) {
     vec3 middle = 0.5 * (boxMin + boxMax) - light.center, extent = 0.5 * (boxMax - boxMin);
     if (light.emitter.shape == shapeDistant) return false;
     vec3 tileMiddle = 0.5 * (bounds.low + bounds.high) - light.center;
@@ -208,31 +222,48 @@ bool mayReachLight(Bounds bounds, vec3 boxMin, vec3 boxMax) {
     return before <= radius + 2e-5 * reach;
 }
 
-void settle(ivec2 tile) {
-    for (int i = 0; i < 64; ++i) {
-        ivec2 pixel = 8 * tile + ivec2(i & 7, i >> 3);
+// Whether a horizon cuts the light for any of the receivers that see it. Nobody asks where `isKnown`.
+bool isCutForAny(ivec2 corner, bool isKnown) {
+    bool isCut = false;
+    for (int i = 0; i < EXACT_TILE * EXACT_TILE && !isKnown && !isCut; ++i) {
+        ivec2 pixel = corner + ivec2(i % EXACT_TILE, i / EXACT_TILE);
+        Receiver receiver;
+        if (any(greaterThanEqual(pixel, view.size_px)) || !loadReceiver(pixel, receiver)) continue;
+        isCut = canSeeLight(receiver, apexOf(receiver)) && !canSeeWholeLight(receiver);
+    }
+    return isCut;
+}
+
+void store(ivec2 pixel, float value) {
+    imageStore(visibility, pixel, vec4(vec3(value), 1.0));
+    imageStore(errorBound, pixel, vec4(0.0));
+}
+
+// All of the light, or none, for each pixel: `isKnown` where it is the same for all receivers, which then see `seen`.
+void settle(ivec2 corner, bool isKnown, float seen) {
+    for (int i = 0; i < EXACT_TILE * EXACT_TILE && isKnown; ++i) {
+        ivec2 pixel = corner + ivec2(i % EXACT_TILE, i / EXACT_TILE);
+        if (all(lessThan(pixel, view.size_px))) store(pixel, isReceiver(pixel) ? seen : 1.0);
+    }
+    for (int i = 0; i < EXACT_TILE * EXACT_TILE && !isKnown; ++i) {
+        ivec2 pixel = corner + ivec2(i % EXACT_TILE, i / EXACT_TILE);
         Receiver receiver;
         if (any(greaterThanEqual(pixel, view.size_px))) continue;
-        bool isDark = loadReceiver(pixel, receiver) && !canSeeLight(receiver, apexOf(receiver));
-        imageStore(visibility, pixel, vec4(vec3(isDark ? 0.0 : 1.0), 1.0));
-        imageStore(errorBound, pixel, vec4(0.0));
+        store(pixel, loadReceiver(pixel, receiver) && !canSeeLight(receiver, apexOf(receiver)) ? 0.0 : 1.0);
     }
 }
 
 void main() {
     uint tile = gl_GlobalInvocationID.x;
-    ivec2 tiles = (view.size_px + 7) / 8;
+    ivec2 tiles = (view.size_px + EXACT_TILE - 1) / EXACT_TILE;
     if (tile >= uint(tiles.x * tiles.y)) return;
-    ivec2 tileOf = ivec2(int(tile) % tiles.x, int(tile) / tiles.x);
+    ivec2 corner = EXACT_TILE * ivec2(int(tile) % tiles.x, int(tile) / tiles.x);
     uint revision = max(tileRevisions[tile], weightsChangedAt) + 1u;
     bool isSame = keeping.keeps && madeAt[tile] == revision;
     if (isSame && keeping.changedBoxes == 0) return;
-    Bounds bounds = boundsOf(tileOf);
+    TileBounds bounds = tileBounds[tile];
+    bool isAllDark = isDark(bounds), isKnown = isAllDark || isAboveHorizon(bounds);
 
-    float pad = 1e-6 * (max(max(abs(bounds.low.x), abs(bounds.high.x)), max(abs(bounds.low.y), abs(bounds.high.y))) +
-                        max(abs(bounds.low.z), abs(bounds.high.z)));
-    bounds.low -= pad;
-    bounds.high += pad;
     bool isDistant = light.emitter.shape == shapeDistant;
     Shaft shaft;
     shaft.fromMin = bounds.low;
@@ -244,18 +275,18 @@ void main() {
     Sides sides = sidesOf(bounds);
 
     // Casters that are in nobody's way now, and were not before, change nothing.
-    for (int i = 0; i < keeping.changedBoxes && isSame && bounds.count > 0; ++i)
+    for (int i = 0; i < keeping.changedBoxes && isSame && !isAllDark; ++i)
         isSame = !mayBlockTile(shaft, sides, bounds, TreeNode(changed[2 * i].xyz, changed[2 * i + 1].xyz, 0u, 0u));
     if (isSame) return;
     // Where a horizon cuts a picture's light, its texels are looked up, and nobody tells when they change.
-    madeAt[tile] = keeping.keeps && !(bounds.isCut && light.emitter.isTextured) ? revision : 0u;
+    madeAt[tile] = keeping.keeps && (isKnown || !light.emitter.isTextured) ? revision : 0u;
 
     // Plain nodes from the front of the tile's part of the lists, those that take a test a sample from its back.
-    uint capacity = uint(light.tileCapacity);
+    uint capacity = uint(frame.tileCapacity);
     uint first = tile * capacity;
     uint plain = 0u, special = 0u;
     float size = wholeSize(bounds);
-    Walk walk = Walk(bounds.count > 0 && light.nodeCount > 0 ? 0u : EXACT_END, EXACT_END);
+    Walk walk = Walk(!isAllDark && light.nodeCount > 0 ? 0u : EXACT_END, EXACT_END);
     uint caster = EXACT_INNER;  // whose subtree we are in, as the tree over the casters has it
     uint node = 0u;             // looked at last,
     uint triangle = 0u, end = 0u;  // and which of its triangles have not been looked at
@@ -296,8 +327,9 @@ void main() {
 
     // Nothing is in the way: the pixels see all of the light, or none of it where it is behind their horizons. (Of a
     // texture a channel may emit nothing, of which nobody sees anything.)
-    if (plain + special == 0u && walk.node == EXACT_END && !bounds.isCut && !light.emitter.isTextured) {
-        settle(tileOf);
+    bool isOpen = plain + special == 0u && walk.node == EXACT_END && !light.emitter.isTextured;
+    if (isAllDark || (isOpen && !isCutForAny(corner, isKnown))) {
+        settle(corner, isKnown, isAllDark ? 0.0 : 1.0);
     } else {
         uint place = atomicAdd(busy.count, 1u);
         busyTiles[place] = tile;

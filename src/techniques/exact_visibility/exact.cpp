@@ -5,15 +5,14 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <glm/gtc/matrix_access.hpp>
+#include <iterator>
 #include <limits>
 #include <string>
 
-#include "penumbra/light_plane.h"
-#include "src/device/glm_types.h"
 #include "src/gl/pass.h"
 #include "src/techniques/common/input_key.h"
 #include "src/techniques/common/light_constants.h"
+#include "src/techniques/exact_visibility/light_description.h"
 
 namespace penumbra::exact_visibility {
 namespace {
@@ -51,10 +50,12 @@ ExactVisibility::ExactVisibility(Device& device)
       candidates_(device_.shaders, {candidatesShader}),
       weigh_(device_.shaders, {"src/techniques/exact_visibility/weights.comp.glsl"}),
       restore_(device_.shaders, {"src/techniques/common/restore.comp.glsl"}),
-      light_("exact/light"),
+      frame_("exact/frame"),
+      receivers_(device_.shaders),
+      tiles_(device_.shaders),
       masks_("exact/masks"),
       changedBoxes_("exact/changed boxes"),
-      receivers_(device_.shaders) {}
+      light_("exact/light") {}
 
 void ExactVisibility::describe(ParameterVisitor& visitor) {
     static constexpr std::array<std::string_view, 2> weights = {"area", "irradiance"};
@@ -82,69 +83,6 @@ const std::vector<LightLattice>& ExactVisibility::latticesFor(const AreaLight& l
     return lattices_[key] = makeLightLattices(key.first, disk);
 }
 
-ExactLight ExactVisibility::describeLight(const ShadowInputs& inputs,
-                                          std::span<const LightLattice> lattices) const {
-    const AreaLight& light = inputs.light;
-    const glm::dmat4 worldFromLight = toGlm(light.worldFromLight);
-    const glm::dmat3 axes(worldFromLight);
-    const bool isDistant = light.shape == LightShape::distant, isSphere = light.shape == LightShape::sphere;
-    const bool isTube = light.shape == LightShape::cylinder;
-    const double halfAngle = 0.5 * double(light.angle_rad);
-    const glm::dvec3 center = isDistant ? glm::dvec3(0) : glm::dvec3(worldFromLight[3]) - soup_.originWorld();
-    const glm::dvec2 size = lightExtent(light);
-    glm::dvec3 low, high;
-    for (int i = 0; i < 3; ++i) {
-        if (isDistant) {
-            // The cone's directions make angles with the axis that run from one to the other.
-            const double angle = std::acos(std::clamp(axes[2][i], -1.0, 1.0));
-            low[i] = std::cos(std::min(angle + halfAngle, std::acos(-1.0))) - 1e-6;
-            high[i] = std::cos(std::max(angle - halfAngle, 0.0)) + 1e-6;
-        } else {
-            const double across = isTube ? std::hypot(axes[1][i], axes[2][i]) : std::abs(axes[1][i]);
-            const double reach = isSphere ? light.radius_m : std::abs(axes[0][i]) * size.x + across * size.y;
-            const double pad = 1e-6 * (std::abs(center[i]) + reach);
-            low[i] = center[i] - reach - pad;
-            high[i] = center[i] + reach + pad;
-        }
-    }
-
-    const glm::dmat4 worldFromView = glm::inverse(toGlm(inputs.view.viewFromWorld));
-    const glm::dmat4 clipFromWorld = toGlm(inputs.view.clipFromView) * toGlm(inputs.view.viewFromWorld);
-    const glm::dvec4 share = glm::row(clipFromWorld, 3);
-    const glm::dmat2 lattice = lattices.front().latticeFromUv, inverse = glm::inverse(lattice);
-    ExactLight result{
-        .emitter = lightConstants(light),
-        .center = center,
-        .coneCosine = float(std::cos(halfAngle)),
-        .axisX = axes[0],
-        .isWeightedByIrradiance = bool32(weight_),
-        .axisY = axes[1],
-        .latticeCount = int(lattices.size()),
-        .axisZ = axes[2],
-        .tilesAcross = (inputs.view.width_px + EXACT_TILE - 1) / EXACT_TILE,
-        .boxMin = low,
-        .tileCapacity = tileCapacity_,
-        .boxMax = high,
-        .nodeCount = int(soup_.nodeCount()),
-        .eye = glm::dvec3(worldFromView[3]) - soup_.originWorld(),
-        .planeTolerance = lightPlaneTolerance,
-        .sight = glm::dvec3(share),
-        .sightOffset = float(share.w + glm::dot(glm::dvec3(share), soup_.originWorld())),
-        .latticeFromU = lattice[0],
-        .latticeFromV = lattice[1],
-        .uvFromI = inverse[0],
-        .uvFromJ = inverse[1],
-    };
-    for (std::size_t i = 0; i < lattices.size(); ++i) {
-        result.offsets[i] = glm::vec4(lattices[i].offset, 0, 0);
-        for (std::size_t j = 0; j < lattices[i].validRows.size(); ++j) {
-            const std::size_t row = i * EXACT_MAX_ROWS + j;
-            result.valid[row / 4][int(row % 4)] = lattices[i].validRows[j];
-        }
-    }
-    return result;
-}
-
 const gl::Program& ExactVisibility::resolveFor(const ResolveKind& kind) {
     const auto found = resolve_.find(kind);
     if (found != resolve_.end()) return found->second;
@@ -158,10 +96,11 @@ const gl::Program& ExactVisibility::resolveFor(const ResolveKind& kind) {
 /// How many triangles may take a look at each sample: those with holes, and those that may reach the light.
 /// Spheres and tubes may make any triangle one, flat lights those of casters that come near their planes:
 /// within a hundredth of the scene's size, for receivers up to a thousand times that away.
-std::size_t ExactVisibility::countSpecial(const ExactLight& light, LightShape shape) const {
+std::size_t ExactVisibility::countSpecial(const glm::vec3& eye, const ExactLight& light,
+                                          LightShape shape) const {
     if (shape == LightShape::distant) return soup_.maskedCount();
     if (shape == LightShape::sphere || shape == LightShape::cylinder) return soup_.triangleCount();
-    const float size = glm::distance(light.eye, light.center) + soup_.farthestFrom(light.center);
+    const float size = glm::distance(eye, light.center) + soup_.farthestFrom(light.center);
     return soup_.maskedCount() + soup_.countNear(light.center, light.axisZ, 0.01f * size);
 }
 
@@ -181,154 +120,219 @@ int ExactVisibility::roundsFor(std::span<const LightLattice> lattices, std::size
     return int(std::min(1 + std::ceil(work / (roundWork_ - perRound)), 1e6));
 }
 
-void ExactVisibility::allocate(int width_px, int height_px, int rows, int rounds) {
-    const std::size_t tiles = answer_.tileCount;
-    busy_.reserve(sizeof(BusyTiles) + tiles * sizeof(std::uint32_t), "exact/busy tiles");
-    lists_.reserve(tiles * std::size_t(tileCapacity_) * sizeof(std::uint32_t), "exact/candidates");
-    states_.reserve(std::size_t(width_px) * std::size_t(height_px) * std::size_t(EXACT_STATE_WORDS + rows) *
-                        sizeof(std::uint32_t),
-                    "exact/states");
-    rounds_.reserve(std::size_t(rounds + 1) * 3 * sizeof(std::uint32_t), "exact/rounds");
-}
-
-/// Writes down what each mask asks of its texture, and which that is; the result has each texture once.
-std::vector<unsigned> ExactVisibility::sendMasks() {
-    std::vector<unsigned> textures;
+/// Writes down what each mask asks of its texture, and which that is.
+void ExactVisibility::sendMasks() {
+    maskTextures_.clear();
     std::vector<glm::vec4> masks;
     for (const AlphaMask& mask : soup_.masks()) {
-        auto it = std::ranges::find(textures, mask.texture);
-        if (it == textures.end()) it = textures.insert(it, mask.texture);
-        const auto which = int(it - textures.begin());
+        auto it = std::ranges::find(maskTextures_, mask.texture);
+        if (it == maskTextures_.end()) it = maskTextures_.insert(it, mask.texture);
+        const auto which = int(it - maskTextures_.begin());
         masks.emplace_back(mask.factor, mask.cutoff, which % EXACT_GROUP_TEXTURES,
                            which / EXACT_GROUP_TEXTURES);
     }
     masks_.write(masks);
-    return textures;
+}
+
+/// Where the answer for a frame's light is kept. Beyond a quarter of a gigabyte lights share one, which is
+/// then never as it was.
+LightAnswer& ExactVisibility::answerFor(std::size_t place, const View& view) {
+    constexpr std::size_t mostKept_bytes = std::size_t(256) << 20, pixel_bytes = 10;
+    const std::size_t each_bytes = std::size_t(view.width_px) * std::size_t(view.height_px) * pixel_bytes;
+    const std::size_t last = std::max<std::size_t>(mostKept_bytes / each_bytes, 1) - 1;
+    while (answers_.size() <= std::min(place, last)) answers_.emplace_back();
+    return answers_[std::min(place, last)];
+}
+
+void ExactVisibility::describeKey(const Stage& stage, const AreaLight& light) {
+    key_.clear();
+    appendLight(key_, light);
+    appendBytes(key_, stage.originWorld);
+    appendBytes(key_, stage.hasCasters);
+    appendBytes(key_, samples_);
+    appendBytes(key_, weight_);
 }
 
 /// Whether tiles may keep their answers: the camera, the light and the options are those of the last frame,
 /// and casters that are not are known.
-bool ExactVisibility::canKeep(const AreaLight& light, bool isSameView) {
-    key_.clear();
-    appendLight(key_, light);
-    appendBytes(key_, soup_.originWorld());
-    appendBytes(key_, samples_);
-    appendBytes(key_, weight_);
-    return isSameView && key_ == answer_.key && soup_.tellsChangesSince(answer_.casterRevision);
+bool ExactVisibility::canKeep(const Stage& stage, const AreaLight& light, const LightAnswer& answer) {
+    describeKey(stage, light);
+    return isSameView_ && key_ == answer.key &&
+           (!stage.hasCasters || soup_.tellsChangesSince(answer.casterRevision));
 }
 
 void ExactVisibility::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
+    const FrameLight light{.light = inputs.light, .out = &out};
+    renderLights({.view = inputs.view, .casters = inputs.casters, .lights = {&light, 1}});
+}
+
+void ExactVisibility::renderLights(const FrameInputs& frame) {
+    if (frame.lights.empty()) return;
     {
-        const auto pass = timers_.pass("exact/upload");
-        soup_.update(inputs.casters);
+        const auto pass = frameTimers_.pass("exact/upload");
+        soup_.update(frame.casters);
+        sendMasks();
     }
-    const bool keeps = canKeep(inputs.light, receivers_.follow(inputs.view));
-    answer_.key.clear();  // until it is there
-    answer_.fit(out.width_px(), out.height_px(), out.colored() ? gl::Format::rgba16f : gl::Format::r32f);
-    const gl::TextureRef visibility = keeps ? answer_.visibility.ref() : imageOf(out);
-    const std::span<const glm::vec4> changed =
-        soup_.revision() == answer_.casterRevision ? std::span<const glm::vec4>() : soup_.changedBoxes();
-    const std::vector<LightLattice>& lattices = latticesFor(inputs.light);
-    std::size_t rows = 0;
-    for (const LightLattice& lattice : lattices) rows = std::max(rows, lattice.validRows.size());
-    const std::vector<unsigned> maskTextures = sendMasks();
-    // A turn for each group of alpha textures, for each lattice, in each of a cone's windows.
-    const int groups =
-        std::max(int(maskTextures.size() + EXACT_GROUP_TEXTURES - 1) / EXACT_GROUP_TEXTURES, 1);
-    const bool isCone = inputs.light.shape == LightShape::sphere || inputs.light.shape == LightShape::distant;
-    const int turns = groups * int(lattices.size()) * (mayFillHalfTheSky(inputs.light) ? 6 : 1);
-    const ExactLight light = describeLight(inputs, lattices);
-    const int turnRounds = roundsFor(lattices, countSpecial(light, inputs.light.shape));
-    allocate(out.width_px(), out.height_px(), int(rows), turns * turnRounds);
-    const bool isUneven = isCone || weight_ != 0 || inputs.light.radianceTexture != 0;
-    const gl::Program& resolve = resolveFor({int(rows), soup_.maskedCount() > 0, isUneven});
-    light_.write(light);
-    glm::dmat4 sceneFromWorld(1);
-    sceneFromWorld[3] = glm::dvec4(-soup_.originWorld(), 1);
-    view_.fill(inputs.view, sceneFromWorld);
-    busy_.clear(0, sizeof(BusyTiles));
+    isSameView_ = receivers_.follow(frame.view);
     ++serial_;
-    if (keeps) {
-        const auto pass = timers_.pass("exact/receivers");
-        receivers_.look(inputs.view, view_, serial_);
-        changedBoxes_.write(changed);
+    // Without casters coordinates begin elsewhere: with the bits of a frame that has none.
+    const Stage casting{.view = frame.view,
+                        .originWorld = soup_.originWorld(),
+                        .frame = describeFrame(frame.view, soup_.originWorld(), tileCapacity_),
+                        .casterRevision = soup_.revision(),
+                        .hasCasters = true};
+    const Stage bare{.view = frame.view, .frame = describeFrame(frame.view, glm::dvec3(0), tileCapacity_)};
+    const Stage* prepared = nullptr;
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+        const Stage& stage = frame.lights[i].castsShadow ? casting : bare;
+        if (std::exchange(prepared, &stage) != &stage) prepare(stage, frame);
+        isFirst_ = i == 0;
+        answer(stage, frame.lights[i], i);
+        if (frame.answered) frame.answered(i);
     }
-    const gl::TextureRef radiance{.name = inputs.light.radianceTexture};
-    if (inputs.light.radianceTexture != 0) {
+}
+
+void ExactVisibility::prepare(const Stage& stage, const FrameInputs& frame) {
+    glm::dmat4 sceneFromWorld(1);
+    sceneFromWorld[3] = glm::dvec4(-stage.originWorld, 1);
+    view_.fill(stage.view, sceneFromWorld);
+    frame_.write(stage.frame);
+    bool keeps = false;
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+        if (frame.lights[i].castsShadow != stage.hasCasters) continue;
+        keeps = keeps || canKeep(stage, frame.lights[i].light, answerFor(i, stage.view));
+    }
+    const auto pass = frameTimers_.pass("exact/receivers");
+    if (keeps) {
+        receivers_.look(stage.view, view_, serial_);
+        changedBoxes_.write(soup_.changedBoxes());
+    }
+    tiles_.look(stage.view, view_, frame_, stage.originWorld, receivers_, keeps ? serial_ : 0);
+}
+
+void ExactVisibility::answer(const Stage& stage, const FrameLight& asked, std::size_t place) {
+    const AreaLight& light = asked.light;
+    LightAnswer& answer = answerFor(place, stage.view);
+    const bool keeps = canKeep(stage, light, answer);
+    answer.key.clear();  // until it is there
+    answer.fit(asked.out->width_px(), asked.out->height_px(),
+               asked.out->colored() ? gl::Format::rgba16f : gl::Format::r32f);
+    answer_ = &answer;
+    const gl::TextureRef visibility = keeps ? answer.visibility.ref() : imageOf(*asked.out);
+    const ExactLight described = describeLight(light, stage.originWorld, latticesFor(light), weight_ != 0,
+                                               stage.hasCasters ? int(soup_.nodeCount()) : 0);
+    light_.write(described);
+    findCandidates(stage, light, visibility, keeps);
+    resolve(stage, light, described, visibility);
+    if (keeps) {
+        gl::Pass(restore_)
+            .bind("kept", answer.visibility)
+            .bind("visibility", imageOf(*asked.out))
+            .dispatchPixels(asked.out->width_px(), asked.out->height_px());
+    }
+    std::swap(answer.key, key_);
+    answer.casterRevision = stage.casterRevision;
+}
+
+void ExactVisibility::findCandidates(const Stage& stage, const AreaLight& light,
+                                     const gl::TextureRef& visibility, bool keeps) {
+    LightAnswer& answer = *answer_;
+    if (light.radianceTexture != 0) {
         const auto pass = timers_.pass("exact/weights");
         gl::Pass(weigh_)
             .constants(ExactLook{.serial = serial_})
             .bind("LightBlock", light_)
-            .bind("radiance", radiance)
-            .bind("Weights", answer_.weights)
-            .dispatch(EXACT_MAX_ROWS / 8, EXACT_MAX_ROWS / 8, lattices.size());
+            .bind("radiance", gl::TextureRef{.name = light.radianceTexture})
+            .bind("Weights", answer.weights)
+            .dispatch(EXACT_MAX_ROWS / 8, EXACT_MAX_ROWS / 8, latticesFor(light).size());
     }
-    {
-        const auto pass = timers_.pass("exact/candidates");
-        constexpr std::size_t groupTiles = 32;
-        gl::Pass(candidates_)
-            .constants(
-                ExactKeeping{.keeps = bool32(keeps), .changedBoxes = keeps ? int(changed.size() / 2) : 0})
-            .bind(view_)
-            .bind("LightBlock", light_)
-            .bind(soup_)
-            .bind("Candidates", lists_)
-            .bind("TileLists", answer_.tiles)
-            .bind("TileRevisions", receivers_.tileRevisions())
-            .bind("Weights", answer_.weights)
-            .bind("MadeAt", answer_.madeAt)
-            .bind("ChangedBoxes", changedBoxes_)
-            .bind("Busy", busy_)
-            .bind("visibility", visibility)
-            .bind("errorBound", answer_.errorBound)
-            .dispatch((answer_.tileCount + groupTiles - 1) / groupTiles);
-    }
-    const auto timed = timers_.pass("exact/resolve");
-    rounds_.clear();
-    gl::Pass pass(resolve);
-    pass.inOrder()
+    const auto pass = timers_.pass("exact/candidates");
+    busy_.reserve(sizeof(BusyTiles) + answer.tileCount * sizeof(std::uint32_t), "exact/busy tiles");
+    busy_.clear(0, sizeof(BusyTiles));
+    lists_.reserve(answer.tileCount * std::size_t(tileCapacity_) * sizeof(std::uint32_t), "exact/candidates");
+    const bool haveCastersChanged = stage.casterRevision != answer.casterRevision;
+    constexpr std::size_t groupTiles = 32;
+    gl::Pass(candidates_)
+        .constants(ExactKeeping{
+            .keeps = bool32(keeps),
+            .changedBoxes = keeps && haveCastersChanged ? int(soup_.changedBoxes().size() / 2) : 0})
         .bind(view_)
+        .bind("FrameBlock", frame_)
         .bind("LightBlock", light_)
         .bind(soup_)
         .bind("Candidates", lists_)
-        .bind("TileLists", answer_.tiles)
+        .bind("Tiles", tiles_.bounds())
+        .bind("TileLists", answer.tiles)
+        .bind("TileRevisions", receivers_.tileRevisions())
+        .bind("Weights", answer.weights)
+        .bind("MadeAt", answer.madeAt)
+        .bind("ChangedBoxes", changedBoxes_)
         .bind("Busy", busy_)
-        .bind("Weights", answer_.weights)
-        .bind("radiance", radiance)
+        .bind("visibility", visibility)
+        .bind("errorBound", answer.errorBound)
+        .dispatch((answer.tileCount + groupTiles - 1) / groupTiles);
+}
+
+void ExactVisibility::resolve(const Stage& stage, const AreaLight& light, const ExactLight& described,
+                              const gl::TextureRef& visibility) {
+    const std::vector<LightLattice>& lattices = latticesFor(light);
+    std::size_t rows = 0;
+    for (const LightLattice& lattice : lattices) rows = std::max(rows, lattice.validRows.size());
+    // A turn for each group of alpha textures, for each lattice, in each of a cone's windows.
+    const int groups =
+        std::max(int(maskTextures_.size() + EXACT_GROUP_TEXTURES - 1) / EXACT_GROUP_TEXTURES, 1);
+    const bool isCone = light.shape == LightShape::sphere || light.shape == LightShape::distant;
+    const int turns = groups * int(lattices.size()) * (mayFillHalfTheSky(light) ? 6 : 1);
+    const int turnRounds = roundsFor(lattices, countSpecial(stage.frame.eye, described, light.shape));
+    const bool isUneven = isCone || weight_ != 0 || light.radianceTexture != 0;
+    const auto pixels =
+        std::size_t(answer_->errorBound.width_px()) * std::size_t(answer_->errorBound.height_px());
+    states_.reserve(pixels * (EXACT_STATE_WORDS + rows) * sizeof(std::uint32_t), "exact/states");
+    rounds_.reserve(std::size_t(turns * turnRounds + 1) * 3 * sizeof(std::uint32_t), "exact/rounds");
+
+    const auto timed = timers_.pass("exact/resolve");
+    rounds_.clear();
+    gl::Pass pass(resolveFor({int(rows), soup_.maskedCount() > 0, isUneven}));
+    pass.inOrder()
+        .bind(view_)
+        .bind("FrameBlock", frame_)
+        .bind("LightBlock", light_)
+        .bind(soup_)
+        .bind("Candidates", lists_)
+        .bind("TileLists", answer_->tiles)
+        .bind("Busy", busy_)
+        .bind("Weights", answer_->weights)
+        .bind("radiance", gl::TextureRef{.name = light.radianceTexture})
         .bind("States", states_)
         .bind("Rounds", rounds_)
         .bind("visibility", visibility)
-        .bind("errorBound", answer_.errorBound);
+        .bind("errorBound", answer_->errorBound);
     if (pass.has("Masks")) pass.bind("Masks", masks_);
-    bindMaskGroup(pass, maskTextures, 0);
+    bindMaskGroup(pass, maskTextures_, 0);
     ExactRound round{.number = 0, .work = roundWork_, .turnRounds = turnRounds, .groups = groups};
     pass.constants(round).dispatchIndirect(busy_);
     while (++round.number < turns * turnRounds) {
         if (groups > 1 && round.number % turnRounds == 0)
-            bindMaskGroup(pass, maskTextures, round.number / turnRounds % groups);
+            bindMaskGroup(pass, maskTextures_, round.number / turnRounds % groups);
         // Without work groups where nobody asked for the round.
         pass.constants(round).dispatchIndirect(rounds_,
                                                3 * sizeof(std::uint32_t) * std::size_t(round.number));
     }
-    if (keeps) {
-        gl::Pass(restore_)
-            .bind("kept", answer_.visibility)
-            .bind("visibility", imageOf(out))
-            .dispatchPixels(out.width_px(), out.height_px());
-    }
-    std::swap(answer_.key, key_);
-    answer_.casterRevision = soup_.revision();
 }
 
 void ExactVisibility::inspect(InspectionVisitor& visitor) const {
-    visitor.texture({.name = "error bound", .texture = answer_.errorBound.name()});
+    visitor.texture({.name = "error bound", .texture = answer_ != nullptr ? answer_->errorBound.name() : 0});
 }
 
 Statistics ExactVisibility::statistics() const {
-    const TileCounts tiles = answer_.countTiles();
-    const ErrorBounds bounds = answer_.readBounds();
+    const TileCounts tiles = answer_ != nullptr ? answer_->countTiles() : TileCounts();
+    const ErrorBounds bounds = answer_ != nullptr ? answer_->readBounds() : ErrorBounds();
     BusyTiles busy{};
     if (busy_.size_bytes() >= sizeof busy) busy_.read(std::as_writable_bytes(std::span(&busy, 1)));
+    std::size_t memory_bytes = soup_.size_bytes() + lists_.size_bytes() + busy_.size_bytes() +
+                               states_.size_bytes() + rounds_.size_bytes() + receivers_.size_bytes() +
+                               tiles_.size_bytes();
+    for (const LightAnswer& answer : answers_) memory_bytes += answer.size_bytes();
     Statistics statistics;
     statistics.counts = {
         {"triangles", double(soup_.triangleCount())},
@@ -341,13 +345,11 @@ Statistics ExactVisibility::statistics() const {
         {"penumbra pixels", double(bounds.pixels)},
         {"mean error bound", bounds.pixels > 0 ? bounds.sum / bounds.pixels : 0.0},
         {"largest error bound", bounds.largest},
-        {"memory",
-         double(soup_.size_bytes() + lists_.size_bytes() + busy_.size_bytes() + states_.size_bytes() +
-                rounds_.size_bytes() + answer_.size_bytes() + receivers_.size_bytes()) /
-             (1 << 20),
-         "MiB"},
+        {"memory", double(memory_bytes) / (1 << 20), "MiB"},
     };
-    statistics.passes = passTimes(timers_);
+    // What a frame's lights share counts for the first of them.
+    if (isFirst_) statistics.passes = passTimes(frameTimers_);
+    std::ranges::copy(passTimes(timers_), std::back_inserter(statistics.passes));
     return statistics;
 }
 

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <compare>
+#include <cstddef>
+#include <deque>
 #include <map>
 #include <span>
 #include <utility>
@@ -22,6 +24,7 @@
 #include "src/techniques/exact_visibility/exact_io.h"
 #include "src/techniques/exact_visibility/light_answer.h"
 #include "src/techniques/exact_visibility/light_lattice.h"
+#include "src/techniques/exact_visibility/receiver_tiles.h"
 #include "src/techniques/exact_visibility/receiver_watch.h"
 
 namespace penumbra::exact_visibility {
@@ -40,6 +43,7 @@ class ExactVisibility final : public Technique {
 
     void describe(ParameterVisitor& visitor) override;
     void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
+    void renderLights(const FrameInputs& frame) override;
     bool answersAtPoints() const override { return true; }
     bool answersTubes() const override { return true; }
     void inspect(InspectionVisitor& visitor) const override;
@@ -54,14 +58,30 @@ class ExactVisibility final : public Technique {
         auto operator<=>(const ResolveKind&) const = default;
     };
 
+    /// What some of a frame's lights share: where coordinates begin, and what casts.
+    struct Stage {
+        View view;
+        glm::dvec3 originWorld{0};
+        ExactFrame frame;
+        std::uint64_t casterRevision = 0;
+        bool hasCasters = false;
+    };
+
+    void prepare(const Stage& stage, const FrameInputs& frame);
+    void answer(const Stage& stage, const FrameLight& light, std::size_t place);
+    void findCandidates(const Stage& stage, const AreaLight& light, const gl::TextureRef& visibility,
+                        bool keeps);
+    void resolve(const Stage& stage, const AreaLight& light, const ExactLight& described,
+                 const gl::TextureRef& visibility);
+
     const gl::Program& resolveFor(const ResolveKind& kind);
-    void allocate(int width_px, int height_px, int rows, int rounds);
-    bool canKeep(const AreaLight& light, bool isSameView);
-    std::size_t countSpecial(const ExactLight& light, LightShape shape) const;
+    LightAnswer& answerFor(std::size_t place, const View& view);
+    void describeKey(const Stage& stage, const AreaLight& light);
+    bool canKeep(const Stage& stage, const AreaLight& light, const LightAnswer& answer);
+    std::size_t countSpecial(const glm::vec3& eye, const ExactLight& light, LightShape shape) const;
     int roundsFor(std::span<const LightLattice> lattices, std::size_t special) const;
     const std::vector<LightLattice>& latticesFor(const AreaLight& light);
-    ExactLight describeLight(const ShadowInputs& inputs, std::span<const LightLattice> lattices) const;
-    std::vector<unsigned> sendMasks();
+    void sendMasks();
 
     int samples_ = 64;
     int weight_ = 0;
@@ -73,16 +93,26 @@ class ExactVisibility final : public Technique {
     gl::Program candidates_, weigh_, restore_;
     std::map<ResolveKind, gl::Program> resolve_;
     std::map<std::pair<int, bool>, std::vector<LightLattice>> lattices_;  // by samples, and whether in a disk
+
+    // Of a frame.
+    std::uint32_t serial_ = 0;
+    bool isSameView_ = false;
     ViewBinding view_;
-    gl::ConstantBuffer<ExactLight> light_;
-    gl::StorageArray<glm::vec4> masks_;
-    gl::StorageArray<glm::vec4> changedBoxes_;
-    gl::Buffer busy_, lists_, states_, rounds_;
+    gl::ConstantBuffer<ExactFrame> frame_;
     ReceiverWatch receivers_;
-    LightAnswer answer_;
-    std::vector<std::byte> key_;  ///< of the light that is asked for
-    std::uint32_t serial_ = 0;    ///< of the frame
-    gl::PassTimers timers_;
+    ReceiverTiles tiles_;
+    gl::StorageArray<glm::vec4> masks_;
+    std::vector<unsigned> maskTextures_;  ///< each once
+    gl::StorageArray<glm::vec4> changedBoxes_;
+
+    // Of one light after the other.
+    gl::ConstantBuffer<ExactLight> light_;
+    gl::Buffer busy_, lists_, states_, rounds_;
+    std::vector<std::byte> key_;       ///< of the light that is asked for
+    std::deque<LightAnswer> answers_;  ///< by the light's place in its frame
+    LightAnswer* answer_ = nullptr;    ///< the last
+    bool isFirst_ = false;             ///< it is its frame's first, and what all share was made for it
+    gl::PassTimers frameTimers_, timers_;
 };
 
 }  // namespace penumbra::exact_visibility

@@ -33,7 +33,16 @@ namespace penumbra::exact_visibility {
 
 #define EXACT_STATE_WORDS 12  // of a receiver whose work is not done, before the rows
 
-/// In scene space: the world's axes, moved.
+/// What all lights of a frame share. In scene space: the world's axes, moved.
+SHARED_STRUCT ExactFrame {
+    vec3 eye;
+    int tilesAcross;
+    vec3 sight;         // times a point, plus
+    float sightOffset;  // this: clip-space w, the distance along the view
+    int tileCapacity;
+};
+
+/// In scene space, too.
 SHARED_STRUCT ExactLight {
     LightConstants emitter;
     vec3 center;
@@ -42,20 +51,26 @@ SHARED_STRUCT ExactLight {
     bool32 isWeightedByIrradiance;
     vec3 axisY;
     int latticeCount;
-    vec3 axisZ;  // light is emitted along -Z
-    int tilesAcross;
-    vec3 boxMin;  // of the light (flat, sphere), of unit vectors towards it (distant)
-    int tileCapacity;
+    vec3 axisZ;            // light is emitted along -Z
+    float planeTolerance;  // penumbra/light_plane.h
+    vec3 boxMin;           // of the light (flat, sphere), of unit vectors towards it (distant)
+    float coneSine;        // as coneCosine
     vec3 boxMax;
-    int nodeCount;
-    vec3 eye;
-    float planeTolerance;                                  // penumbra/light_plane.h
-    vec3 sight;                                            // times a point, plus
-    float sightOffset;                                     // this: clip-space w, the distance along the view
+    int nodeCount;                                         // of the tree of what casts
     vec2 latticeFromU, latticeFromV;                       // columns of a matrix
     vec2 uvFromI, uvFromJ;                                 // of its inverse
     vec4 offsets[EXACT_MAX_LATTICES];                      // xy: where uv = 0 lies in lattice coordinates
     uvec4 valid[EXACT_MAX_LATTICES * EXACT_MAX_ROWS / 4];  // bit i of row j: (i, j) is a sample
+};
+
+/// Where rays of a tile's receivers start, whatever the light.
+SHARED_STRUCT TileBounds {
+    vec3 low;
+    float lowest;  // the least of dot(normal, position),
+    vec3 high;
+    float highest;      // and the greatest
+    vec3 normal;        // of one of the receivers
+    float otherNormal;  // how far those of the others are from it; negative where there is no receiver
 };
 
 /// A tile's part of the lists of nodes: plain candidates from its front, those whose triangles may take a
@@ -82,8 +97,9 @@ SHARED_STRUCT ExactRound {
 
 /// A look at all receivers.
 SHARED_STRUCT ExactLook {
-    uint serial;
-    uint words;  // that are kept of a pixel
+    uint serial;  // of the frame; for the bounds of tiles: which revision alone has changed, or 0: any may
+                  // have
+    uint words;   // that are kept of a pixel
 };
 
 /// What of a light's last answer may stay.
@@ -100,7 +116,8 @@ struct ExactWeights {
 };
 
 static_assert(sizeof(ExactLight) ==
-              32 + 16 * (10 + EXACT_MAX_LATTICES + EXACT_MAX_LATTICES * EXACT_MAX_ROWS / 4));
+              32 + 16 * (8 + EXACT_MAX_LATTICES + EXACT_MAX_LATTICES * EXACT_MAX_ROWS / 4));
+static_assert(sizeof(ExactFrame) == 48 && sizeof(TileBounds) == 48);
 static_assert(sizeof(TileList) == 16 && sizeof(ExactRound) == 16);
 }  // namespace penumbra::exact_visibility
 #endif

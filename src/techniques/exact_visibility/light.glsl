@@ -13,14 +13,6 @@ bool liesInLightPlane(vec3 pos) {
     return abs(dot(light.axisZ, fromCenter)) <= light.planeTolerance * (length(fromCenter) + length(light.emitter.halfSize));
 }
 
-// Where rays start: off the surface, so that they do not meet it again. A position from a depth buffer carries some ten
-// roundings of 2^-24 each, relative to its distance from the eye and to its coordinates; 4e-6 is six times their sum.
-vec3 apexOf(Receiver receiver) {
-    vec3 size = abs(receiver.posLight);
-    float largest = max(size.x, max(size.y, size.z));
-    return receiver.posLight + 4e-6 * (largest + distance(receiver.posLight, light.eye)) * receiver.normalLight;
-}
-
 // A part of the light, seen through a window: the sample (u, v) lies in the direction of center + u across + v along,
 // and at share w of it lies what has the coordinates w (u, v, 1).
 struct Patch {

@@ -9,7 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #define ROWS 11
 #endif
 
-#include "src/techniques/common/view.glsl"
+#include "src/techniques/exact_visibility/receivers.glsl"
 #include "src/techniques/exact_visibility/light.glsl"
 #include "src/techniques/exact_visibility/tree.glsl"
 #include "src/techniques/exact_visibility/exact_io.h"
@@ -247,7 +247,7 @@ void main() {
     uint place = gl_WorkGroupID.y * EXACT_GROUPS_ACROSS + gl_WorkGroupID.x;
     if (place >= busy.count) return;
     uint tileIndex = busyTiles[place];
-    ivec2 tile = ivec2(int(tileIndex) % light.tilesAcross, int(tileIndex) / light.tilesAcross);
+    ivec2 tile = ivec2(int(tileIndex) % frame.tilesAcross, int(tileIndex) / frame.tilesAcross);
     ivec2 pixel = 8 * tile + placeInTile(ivec2(gl_LocalInvocationID.xy));
     bool inside = all(lessThan(pixel, view.size_px));
     uint base = uint(min(pixel.y, view.size_px.y - 1) * view.size_px.x + min(pixel.x, view.size_px.x - 1)) * STATE_WORDS;
@@ -284,9 +284,9 @@ void main() {
         for (int j = 0; j < ROWS && resumes; ++j) hidden[j] |= states[base + uint(EXACT_STATE_WORDS + j)];
         resumes = false;
 
-        uint first = tileIndex * uint(light.tileCapacity);
+        uint first = tileIndex * uint(frame.tileCapacity);
         Look look = Look(projectionOf(patch_, offset), shaftFrom(apex), receiver.normalLight, apex, list, first,
-                         first + uint(light.tileCapacity) - 1u, group);
+                         first + uint(frame.tileCapacity) - 1u, group);
         if (!isOn) {
             for (int j = 0; j < ROWS; ++j) hidden[j] = 0xffffffffu;
         }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "src/gl/texture.h"
 #include "studio/scene/builtin/builtin.h"
@@ -205,6 +207,41 @@ TEST_F(StillViewTest, OptionsAndCamerasThatChangeAreSeen) {
     EXPECT_NE(renderWith(*technique_, inputs, light).values, sixtyFour.values);
     setParameter(*technique_, "samples", "64");
     EXPECT_EQ(renderWith(*technique_, inputs, light).values, sixtyFour.values);
+}
+
+TEST_F(StillViewTest, EachOfSeveralLightsIsKept) {
+    const Scene scene = withMoment(makeBuiltin("many-lights"),
+                                   [](SceneMoment& moment) { moment.lights[1].castsShadow = false; });
+    workbench().open(scene);
+    const SceneMoment moment = scene.at(0);
+    draw(moment);
+    FrameRenderer& frame = workbench().frame();
+    std::vector<VisibilityBuffer> visibilities = frame.makeVisibilities(moment.lights);
+    const std::vector<FrameLight> lights = frame.frameLights(moment.lights, visibilities);
+    std::vector<double> looks(lights.size());
+    const auto render = [&](std::span<const Caster> casters) {
+        FrameInputs inputs = frame.frameInputs(lights);
+        inputs.casters = casters;
+        inputs.answered = [&](std::size_t i) {
+            for (const Statistic& count : technique_->statistics().counts) {
+                if (count.name == "tiles looked at") looks[i] = count.value;
+            }
+        };
+        technique_->renderLights(inputs);
+        for (std::size_t i = 0; i < lights.size(); ++i) {
+            ShadowInputs alone = frame.shadowInputs(moment.lights[i]);
+            if (moment.lights[i].castsShadow) alone.casters = casters;
+            EXPECT_EQ(frame.readVisibility(visibilities[i]).values,
+                      renderWith(*workbench().makeTechnique("exact"), alone, moment.lights[i]).values)
+                << moment.lights[i].name;
+        }
+    };
+    for (int i = 0; i < 3; ++i) render(casters_);
+    EXPECT_EQ(looks, std::vector<double>(lights.size(), 0));
+    std::vector<Caster> elsewhere = casters_;
+    for (Caster& caster : elsewhere) caster.worldFromMesh = moved(caster.worldFromMesh, 0.2f, 0);
+    render(elsewhere);
+    EXPECT_GT(looks[0], 0);
 }
 
 }  // namespace

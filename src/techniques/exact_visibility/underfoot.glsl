@@ -23,7 +23,7 @@ Footing footingOf(ivec2 pixel, Receiver receiver) {
     float depth = depthAt(pixel);
     float nearness = depth * view.nearnessScale + view.nearnessOffset;
     vec3 moved = positionLight(pixel, depth + step_ * nearness * view.nearnessScale) - positionLight(pixel, depth);
-    return Footing(dot(light.sight, receiver.posLight) + light.sightOffset, 1.0 / nearness,
+    return Footing(dot(frame.sight, receiver.posLight) + frame.sightOffset, 1.0 / nearness,
                    abs(dot(receiver.normalLight, moved)) / step_);
 }
 
@@ -35,10 +35,10 @@ bool isUnderfoot(Footing footing, vec3 normal, vec3 apex, vec3 a, vec3 b, vec3 c
 
     // Nearness at the triangle's nearest point over that at the receiver. Depths of orthographic views, and those that
     // are not reversed, have the rounding of a nearness of 1 everywhere.
-    vec3 shares = vec3(dot(light.sight, a), dot(light.sight, b), dot(light.sight, c)) +
-                  dot(light.sight, apex) + light.sightOffset;
+    vec3 shares = vec3(dot(frame.sight, a), dot(frame.sight, b), dot(frame.sight, c)) +
+                  dot(frame.sight, apex) + frame.sightOffset;
     float nearest = max(min(shares.x, min(shares.y, shares.z)), 1e-30);
-    bool isEven = light.sight == vec3(0.0) || view.nearnessScale < 0.0;
+    bool isEven = frame.sight == vec3(0.0) || view.nearnessScale < 0.0;
     float ratio = isEven ? footing.inverseNearness : clamp(footing.share / nearest, 1.0, footing.inverseNearness);
 
     vec3 size = max(abs(a), max(abs(b), abs(c)));

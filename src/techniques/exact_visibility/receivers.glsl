@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of a receiver does not depend on the light.
+#include "src/techniques/common/view.glsl"
+#include "src/techniques/exact_visibility/exact_io.h"
+
+layout(std140) uniform FrameBlock { ExactFrame frame; };
+
+// Where rays start: off the surface, so that they do not meet it again. A position from a depth buffer carries some ten
+// roundings of 2^-24 each, relative to its distance from the eye and to its coordinates; 4e-6 is six times their sum.
+vec3 apexOf(Receiver receiver) {
+    vec3 size = abs(receiver.posLight);
+    float largest = max(size.x, max(size.y, size.z));
+    return receiver.posLight + 4e-6 * (largest + distance(receiver.posLight, frame.eye)) * receiver.normalLight;
+}
