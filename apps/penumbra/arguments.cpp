@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <glm/trigonometric.hpp>
 #include <limits>
 
 #include "penumbra/version.h"
@@ -72,6 +73,12 @@ void addFileFlags(CLI::App& command, SceneArguments& arguments) {
         .add_option("--glass", arguments.glass, "clear: glass lets light through; blocks: it casts shadows")
         ->check(CLI::IsMember({"clear", "blocks"}))
         ->capture_default_str();
+    command.add_option("--light-radius", arguments.lightRadius_m, "metres: for lamps that have no size")
+        ->check(CLI::Range(1e-4f, 1e4f));
+    command
+        .add_option("--sun-angle", arguments.sunAngle_deg,
+                    "degrees across: for distant lights that have no size (the sun: 0.53)")
+        ->check(CLI::Range(1e-3f, 90.0f));
 }
 
 void addCameraFlags(CLI::App& command, SceneArguments& arguments) {
@@ -150,7 +157,8 @@ OpenOptions SceneArguments::openOptions() const {
                         .scene = sceneIndex,
                         .glass = glass == "clear" ? Glass::clear : Glass::blocks,
                         .unit_m = unit_m->second,
-                        .up = up == "y" ? UpAxis::y : UpAxis::z};
+                        .up = up == "y" ? UpAxis::y : UpAxis::z,
+                        .lightSizes = {lightRadius_m, glm::radians(sunAngle_deg)}};
     if (animations == std::vector{-1})
         options.animations.emplace();
     else if (!animations.empty())

@@ -37,6 +37,7 @@ struct SceneArguments {
     std::optional<float> orthoHeight_m;
     std::optional<int> sceneIndex;
     std::string glass = "clear", unit = "m", up = "y";
+    float lightRadius_m = 0, sunAngle_deg = 0;
     std::vector<int> animations;  ///< empty: not asked for; {-1}: none
     double time_s = 0;
     std::string size = "960x540";

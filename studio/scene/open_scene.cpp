@@ -148,7 +148,10 @@ Scene openScene(const std::string& nameOrPath, const OpenOptions& options) {
         Light sun = sunLight("sun", options.sun->place, options.sun->setting, "--sun");
         scene.motion = std::make_shared<WithSun>(scene.motion, std::move(sun), fileHasLights);
     }
+    scene.motion = withSizes(scene.motion, options.lightSizes);
     addDefaults(scene, nameOrPath);
+    if (const auto hint = sizelessHint(scene.at(0)))
+        scene.warnings.push_back(fmt::format("{}: {}", nameOrPath, *hint));
     return scene;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "studio/scene/light_size.h"
 #include "studio/scene/scene.h"
 #include "studio/scene/sun/sun.h"
 
@@ -32,6 +33,7 @@ struct OpenOptions {
     Glass glass = Glass::clear;
     double unit_m = 1;  ///< of a file that does not keep to glTF's metre
     UpAxis up = UpAxis::y;
+    LightSizes lightSizes;  ///< for lights that have none
 };
 
 /// The lengths that a file's coordinates may count, by name: mm, cm, m, in, ft.
@@ -44,7 +46,7 @@ std::string_view nameOfUnit(double unit_m);
 /// Its lights are those of `lightsFile`, else of the sidecar (chair.lights.json beside chair.glb) if there is
 /// one, else its own. The sun is added to those of a file; the scene's own it replaces. A scene that has none
 /// gets a key light over it, and one without a camera gets one (defaultCamera); both are said in
-/// Scene::warnings, as are doubts about unit and axes.
+/// Scene::warnings, as are doubts about unit and axes, and lights that have no size.
 ///
 /// Throws InputError, which names the file and the remedy, for whatever is missing or wrong.
 Scene openScene(const std::string& nameOrPath, const OpenOptions& options = {});

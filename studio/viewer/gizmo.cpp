@@ -7,6 +7,7 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "studio/scene/light_size.h"
 #include "studio/viewer/light_editing.h"
 
 namespace penumbra::studio::viewer {

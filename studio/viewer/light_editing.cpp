@@ -5,44 +5,13 @@
 #include <bit>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 
 #include "studio/scene/builtin/placing.h"
+#include "studio/scene/light_size.h"
 #include "studio/scene/profiles/luminaire.h"
 #include "studio/scene/sun/sun.h"
 
 namespace penumbra::studio::viewer {
-namespace {
-
-/// How much of its emission's unit (nits, candela, lux) a light gives to a surface far off that faces it: the
-/// area or the solid angle that it shows, or 1 for a light of size zero.
-float effect(const AreaLight& shape) {
-    constexpr float pi = std::numbers::pi_v<float>;
-    switch (shape.shape) {
-        case LightShape::rect:
-            return shape.width_m * shape.height_m;
-        case LightShape::disk:
-        case LightShape::sphere:
-            return pi * shape.radius_m * shape.radius_m;
-        case LightShape::cylinder:
-            return 2 * shape.radius_m * shape.length_m;
-        case LightShape::distant: {
-            const float sine = std::sin(0.5f * shape.angle_rad);
-            return pi * sine * sine;
-        }
-    }
-    return 0;
-}
-
-void setUnit(Light& light) {
-    const bool hasSize = effect(light.shape) > 0;
-    light.emission.unit = hasSize                                    ? Emission::Unit::nits
-                          : light.shape.shape == LightShape::distant ? Emission::Unit::lux
-                                                                     : Emission::Unit::candela;
-}
-
-}  // namespace
-
 Light newLight(const glm::vec3& posWorld, const glm::vec3& normalWorld, float distance_m) {
     constexpr float sizeShare = 0.25f, illuminance_lux = 500;
     const float size_m = sizeShare * distance_m;
@@ -55,7 +24,7 @@ void changeShape(Light& light, LightShape shape) {
     if (area.shape == shape) return;
     const glm::mat4 worldFromLight = std::bit_cast<glm::mat4>(area.worldFromLight);
     const float distance_m = std::max(glm::length(glm::vec3(worldFromLight[3])), 0.1f);
-    const glm::vec3 color = light.emission.value * effect(area);
+    const glm::vec3 color = light.emission.value * effectOf(area);
     const bool wasDistant = area.shape == LightShape::distant;
     const float radius_m = area.shape == LightShape::rect ? 0.5f * std::sqrt(area.width_m * area.height_m)
                            : wasDistant                   ? distance_m * std::tan(0.5f * area.angle_rad)
@@ -78,19 +47,9 @@ void changeShape(Light& light, LightShape shape) {
     const float toLux = (shape == LightShape::distant) == wasDistant ? 1.0f
                         : wasDistant                                 ? distance_m * distance_m
                                                                      : 1 / (distance_m * distance_m);
-    const float now = effect(area);
+    const float now = effectOf(area);
     light.emission.value = color * toLux / (now > 0 ? now : 1);
-    setUnit(light);
-}
-
-void setSize(Light& light, float AreaLight::*size, float value) {
-    if (light.profile && light.profile->isLuminaire) return;  // its size is its file's
-    light.sun.reset();
-    const float before = effect(light.shape);
-    light.shape.*size = value;
-    const float now = effect(light.shape);
-    if ((before > 0) != (now > 0)) light.emission.value *= now > 0 ? 1 / now : before;
-    setUnit(light);
+    setEmissionUnit(light);
 }
 
 Bearing bearingOf(const Light& light) {

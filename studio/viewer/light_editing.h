@@ -14,10 +14,6 @@ Light newLight(const glm::vec3& posWorld, const glm::vec3& normalWorld, float di
 /// rects.
 void changeShape(Light& light, LightShape shape);
 
-/// Sets one of the light's sizes. Where it becomes or ceases to be zero the unit of emission changes with it,
-/// and the illuminance that the light gives from afar stays. A luminaire keeps the size that its file says.
-void setSize(Light& light, float AreaLight::*size, float value);
-
 /// Where the light of a lamp's middle comes from: azimuth clockwise, seen from above, from the world's -Z;
 /// altitude above the horizon, 90 of a lamp that shines down.
 struct Bearing {

@@ -13,6 +13,7 @@
 #include "studio/image/test_folder.h"
 #include "studio/metrics/false_color.h"
 #include "studio/scene/builtin/builtin.h"
+#include "studio/scene/light_size.h"
 #include "studio/viewer/camera_control.h"
 #include "studio/viewer/edited_lights.h"
 #include "studio/viewer/gizmo.h"

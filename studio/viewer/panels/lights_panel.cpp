@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
+#include "studio/scene/light_size.h"
 #include "studio/scene/profiles/light_profile.h"
 #include "studio/viewer/light_editing.h"
 #include "studio/viewer/panels/panels.h"
@@ -150,9 +151,8 @@ bool editTexture(Ui& ui, Light& light, const Scene& scene, WindowState& windowSt
 
 /// What a light without a size is, in a word.
 void sayHard(Ui& ui, const Light& light) {
-    const AreaLight& shape = light.shape;
-    const bool hasSize = shape.width_m * shape.height_m > 0 || shape.radius_m > 0 || shape.angle_rad > 0;
-    if (!hasSize) ui.note("This light has no size, so its shadows are hard: give it one above.");
+    if (!(effectOf(light.shape) > 0))
+        ui.note("This light has no size, so its shadows are hard: give it one above.");
 }
 
 bool editLight(Ui& ui, Light& light, const Session& session, WindowState& windowState, Requests& requests) {
