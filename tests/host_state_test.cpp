@@ -55,6 +55,28 @@ TEST_F(HostTest, StateIsRestoredWhenACallFails) {
     EXPECT_EQ(differences(before, captureState()), "");
 }
 
+TEST_F(HostTest, WhatItBoundOfOursMayGoAway) {
+    class Last final : public InspectionVisitor {
+      public:
+        void texture(const InspectedTexture& inspected) override { name = inspected.texture; }
+        std::uint32_t name = 0;
+    } bound;
+    const auto technique = workbench().makeTechnique("exact");
+    for (const int size_px : {1, 100}) {
+        const std::vector<Vec3> places(std::size_t(size_px), Vec3{0, 0, 0}),
+            normals(places.size(), Vec3{0, 1, 0});
+        const Points points(device(), places, normals);
+        VisibilityBuffer out(device(), points.width_px(), points.height_px());
+        technique->render({.view = points.view(), .light = {}, .casters = {}}, out);
+        EXPECT_EQ(glGetError(), GLenum(GL_NO_ERROR)) << size_px;
+        technique->inspect(bound);
+        glBindTextureUnit(0, bound.name);
+        glBindImageTexture(0, bound.name, 0, GL_FALSE, 0, GL_READ_ONLY, GL_R16F);
+    }
+    glBindTextureUnit(0, 0);
+    glBindImageTexture(0, 0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_R8);
+}
+
 TEST_F(HostTest, ActiveTransformFeedbackIsRefused) {
     const ShadowInputs inputs = drawScene();
     const auto technique = workbench().makeTechnique("hard");

@@ -225,19 +225,23 @@ void HostState::saveUnits() {
     saveBlocks(uniformBlocks_, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE);
 }
 
+// A texture of ours that the host had bound (Technique::inspect) may be another by now, and its name gone.
 void HostState::restoreUnits() const {
+    const auto isThere = [](GLint texture) {
+        return texture != 0 && glIsTexture(GLuint(texture)) == GL_TRUE;
+    };
     for (GLuint unit = 0; unit < textureUnits; ++unit) {
         glBindTextureUnit(unit, 0);  // all targets
         for (const GLint texture : textureUnits_[unit].textures) {
-            if (texture != 0) glBindTextureUnit(unit, GLuint(texture));
+            if (isThere(texture)) glBindTextureUnit(unit, GLuint(texture));
         }
         glBindSampler(unit, GLuint(textureUnits_[unit].sampler));
     }
     glActiveTexture(GLenum(activeTexture_));
     for (GLuint unit = 0; unit < imageUnits; ++unit) {
         const ImageUnit& image = imageUnits_[unit];
-        glBindImageTexture(unit, GLuint(image.texture), image.level, GLboolean(image.layered), image.layer,
-                           GLenum(image.access), GLenum(image.format));
+        glBindImageTexture(unit, isThere(image.texture) ? GLuint(image.texture) : 0, image.level,
+                           GLboolean(image.layered), image.layer, GLenum(image.access), GLenum(image.format));
     }
     const auto restoreBlocks = [](const auto& blocks, GLenum target) {
         for (GLuint i = 0; i < blocks.size(); ++i) {
