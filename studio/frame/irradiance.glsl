@@ -6,22 +6,32 @@
 
 const vec3 luminanceOfRec709 = vec3(0.2126, 0.7152, 0.0722);
 
+// Where an includer knows what kind of light it has, software rasterizers, which run both sides of a branch and every loop
+// once, are spared all others.
+#ifdef ONLY_SHAPE
+const int lightShape = ONLY_SHAPE;
+const bool isProfiled = ONLY_PROFILED != 0;
+#else
+int lightShape = light.shape;
+bool isProfiled = light.profile.type != noProfile;
+#endif
+
 // Irradiance of a light of size zero whose emission is 1 candela or 1 lux.
 float pointIrradiance(vec3 pos, vec3 normal) {
-    vec3 towards = light.shape == shapeDistant ? vec3(0.0, 0.0, 1.0) : -pos;
-    float distance2 = light.shape == shapeDistant ? 1.0 : dot(towards, towards);
+    vec3 towards = lightShape == shapeDistant ? vec3(0.0, 0.0, 1.0) : -pos;
+    float distance2 = lightShape == shapeDistant ? 1.0 : dot(towards, towards);
     return distance2 > 0.0 ? max(0.0, dot(normal, normalize(towards))) / distance2 : 0.0;
 }
 
 float irradianceBeforeCone(vec3 pos, vec3 normal) {
-    int shape = light.shape;
+    int shape = lightShape;
     bool behind = pos.z >= 0.0;
     if ((shape == shapeRect || shape == shapeDisk) && behind && !light.isTwoSided) return 0.0;
     // What lies in the plane of a flat light sees nothing of it.
     vec2 halfSize_m = shape == shapeRect ? light.halfSize_m : vec2(light.radius_m);
     bool isFlat = (shape == shapeRect || shape == shapeDisk) && !light.isPoint;
     if (isFlat && abs(pos.z) <= light.planeTolerance * (length(pos) + length(halfSize_m))) return 0.0;
-    if (light.profile.type != noProfile)
+    if (isProfiled)
         return profiledIrradiance(light.profile, shape, light.isPoint, light.halfSize_m, light.radius_m, pos, normal);
     if (light.isPoint) return pointIrradiance(pos, normal);
     if (shape == shapeRect) return rectIrradiance(pos, normal, light.halfSize_m);

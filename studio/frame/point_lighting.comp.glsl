@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #version 450
 // What a light sends to points: illuminance with its shadows, how far that may be off, and what of the light is seen.
+// Defines: ONLY_SHAPE and ONLY_PROFILED (irradiance.glsl); WITH_TEXTURE.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #include "studio/frame/point_lighting_io.h"
@@ -15,9 +16,12 @@ uniform sampler2D places;   // red: 1 where there is a point; green, blue, alpha
 uniform sampler2D normals;  // in world space
 uniform sampler2D visibilityTexture;
 uniform sampler2D errorBound;
+#ifdef WITH_TEXTURE
 uniform sampler2D radianceTexture;
+#endif
 layout(rgba32f) uniform writeonly image2D measured;  // lux, its bound, the share seen, lux without shadows
 
+#ifdef WITH_TEXTURE
 // Irradiance of a textured rect, whose parts count by what they emit.
 vec3 texturedIrradiance(vec3 pos, vec3 normal) {
     const int most = 32;
@@ -41,6 +45,7 @@ vec3 texturedIrradiance(vec3 pos, vec3 normal) {
     }
     return whole > 0.0 ? sum / whole * irradiance(pos, normal) : vec3(0.0);
 }
+#endif
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -51,8 +56,11 @@ void main() {
         vec3 pos = (light.lightFromWorld * vec4(place.gba, 1.0)).xyz;
         vec3 normal = normalize(mat3(light.lightFromWorld) * texelFetch(normals, pixel, 0).xyz);
         vec3 unshadowed = light.emission;
-        if (light.isTextured) unshadowed *= texturedIrradiance(pos, normal);
-        else unshadowed *= irradiance(pos, normal);
+#ifdef WITH_TEXTURE
+        unshadowed *= texturedIrradiance(pos, normal);
+#else
+        unshadowed *= irradiance(pos, normal);
+#endif
         vec3 seen = vec3(1.0);
         if (points.isShadowed) {
             vec4 visibility = texelFetch(visibilityTexture, pixel, 0);

@@ -36,9 +36,18 @@ class ErrorBound : public InspectionVisitor {
 }  // namespace
 
 PointLighting::PointLighting(Device& device, std::filesystem::path shaderSourceDirectory)
-    : device_(device),
-      shaders_(makeShaderLibrary(std::move(shaderSourceDirectory))),
-      lighting_(shaders_, {"studio/frame/point_lighting.comp.glsl"}) {}
+    : device_(device), shaders_(makeShaderLibrary(std::move(shaderSourceDirectory))) {}
+
+const gl::Program& PointLighting::programFor(const Kind& kind) {
+    const auto found = lighting_.find(kind);
+    if (found != lighting_.end()) return found->second;
+    std::vector<std::string> defines{"ONLY_SHAPE " + std::to_string(int(kind.shape)),
+                                     "ONLY_PROFILED " + std::to_string(int(kind.isProfiled))};
+    if (kind.isTextured) defines.emplace_back("WITH_TEXTURE");
+    return lighting_
+        .emplace(kind, gl::Program(shaders_, {"studio/frame/point_lighting.comp.glsl"}, std::move(defines)))
+        .first->second;
+}
 
 std::vector<PointLight> PointLighting::measure(const Points& points, const GpuScene& scene,
                                                const Light& light, Technique& technique) {
@@ -61,16 +70,17 @@ std::vector<PointLight> PointLighting::measure(const Points& points, const GpuSc
                    .height_px = points.height_px(),
                    .format = gl::Format::rgba32f,
                    .label = "light at points"});
-    gl::Pass(lighting_)
-        .constants(constants)
+    gl::Pass pass(programFor({shape.shape, light.profile.has_value(), shape.radianceTexture != 0}));
+    pass.constants(constants)
         .bind("Profile", scene.profile(light))
         .bind("places", gl::TextureRef{.name = points.view().depthTexture})
         .bind("normals", gl::TextureRef{.name = points.view().normalTexture})
         .bind("visibilityTexture", gl::TextureRef{.name = visibility.texture()})
         .bind("errorBound", gl::TextureRef{.name = errorBound})
-        .bind("radianceTexture", gl::TextureRef{.name = shape.radianceTexture})
-        .bind("measured", measured_)
-        .dispatchPixels(points.width_px(), points.height_px());
+        .bind("measured", measured_);
+    if (shape.radianceTexture != 0)
+        pass.bind("radianceTexture", gl::TextureRef{.name = shape.radianceTexture});
+    pass.dispatchPixels(points.width_px(), points.height_px());
 
     constexpr int channels = 4;
     const std::vector<float> values = points.read(measured_.name(), channels);

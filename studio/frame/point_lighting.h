@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <compare>
 #include <filesystem>
+#include <map>
 #include <vector>
 
 #include "penumbra/penumbra.h"
@@ -31,9 +33,17 @@ class PointLighting {
                                     Technique& technique);
 
   private:
+    /// What a program is made for.
+    struct Kind {
+        LightShape shape;
+        bool isProfiled, isTextured;
+        auto operator<=>(const Kind&) const = default;
+    };
+    const gl::Program& programFor(const Kind& kind);
+
     Device& device_;
     gl::ShaderLibrary shaders_;
-    gl::Program lighting_;
+    std::map<Kind, gl::Program> lighting_;
     gl::Texture measured_;
 };
 

@@ -191,6 +191,29 @@ TEST_F(LuxTest, OfASunOnATiltedPlane) {
     EXPECT_EQ(luxAt(scene, {0, 1, 0}, {1, 0, 0}), 0);
 }
 
+TEST_F(LuxTest, OfASunBehindAnEdgeIsWithinItsBound) {
+    constexpr float angle_rad = 0.0093f;
+    constexpr double ofASample = 80000.0 / 1024;  // what is finer is in no bound
+    SceneBuilder scene = withGround(distantLight("sun", angle_rad, {0, -1, 0}, 80000));
+    scene.place("sheet", scene.mesh("sheet", plane(8, 16), glm::vec3(0.5f)),
+                penumbra::studio::at({-4, 1, 0}));
+    const double radius = std::tan(0.5 * double(angle_rad));  // on the ground, of the half-shadow
+    std::vector<MeasuringPoint> points;
+    constexpr int count = 1000;
+    for (int i = 0; i < count; ++i) points.push_back({{1.2 * radius * (2.0 * i / count - 1), 0, 0.1}});
+    const Measurement measured = measureAt(std::move(scene).build(), points);
+    int outside = 0, ofHalfShadow = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double beyond = std::clamp(-points[i].posWorld.x / radius, -1.0, 1.0);
+        const double seen = (std::acos(beyond) - beyond * std::sqrt(1 - beyond * beyond)) / pi;
+        const MeasuredValue& value = measured.values[i];
+        if (value.bound_lux > 0) ++ofHalfShadow;
+        if (std::abs(double(value.lux) - 80000 * seen) > double(value.bound_lux) + ofASample) ++outside;
+    }
+    EXPECT_GT(ofHalfShadow, count / 2);
+    EXPECT_LE(outside, count / 1000);
+}
+
 TEST_F(LuxTest, IsTheSumOverLights) {
     const Scene scene = makeBuiltin("many-lights");
     const Measurement measured =

@@ -32,6 +32,24 @@ std::uint64_t interleaved(const glm::uvec3& place) {
     return code;
 }
 
+/// How far along a curve through a grid (Hilbert 1891) a cell lies: cells that follow each other on it,
+/// however many, lie together.
+std::uint64_t alongCurve(const MeasuringPoint& cell) {
+    glm::uvec2 place(cell.column, cell.row);
+    std::uint64_t along = 0;
+    constexpr std::uint32_t side = std::uint32_t(mostPoints);
+    for (std::uint32_t half = side / 2; half > 0; half /= 2) {
+        const std::uint32_t right = (place.x & half) != 0 ? 1 : 0, up = (place.y & half) != 0 ? 1 : 0;
+        along = 4 * along + ((3 * right) ^ up);
+        // Each quarter holds the same curve, turned.
+        place = {place.x & (half - 1), place.y & (half - 1)};
+        if (up != 0) continue;
+        if (right != 0) place = glm::uvec2(half - 1) - place;
+        std::swap(place.x, place.y);
+    }
+    return along;
+}
+
 /// The points that count, those that lie near each other together.
 std::vector<std::size_t> orderOf(const Measurement& measurement) {
     const std::vector<MeasuringPoint>& points = measurement.set.points;
@@ -47,8 +65,11 @@ std::vector<std::size_t> orderOf(const Measurement& measurement) {
     const double largest = std::max({size.x, size.y, size.z});
     constexpr double steps = (1 << 20) - 1;
     std::vector<std::uint64_t> codes(points.size());
-    for (const std::size_t i : order)
-        codes[i] = interleaved(glm::uvec3(steps / largest * (points[i].posWorld - low)));
+    for (const std::size_t i : order) {
+        codes[i] = measurement.set.grid
+                       ? alongCurve(points[i])
+                       : interleaved(glm::uvec3(steps / largest * (points[i].posWorld - low)));
+    }
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return codes[i]; });
     return order;
 }
@@ -240,17 +261,21 @@ void measure(Measurement& measurement, Device& device, PointLighting& lighting, 
 
 Measurement::Cost timeRuns(const Measurement& prepared, Workbench& workbench, const SceneMoment& moment,
                            Technique& technique, const MeasuringOptions& options, int runs) {
+    workbench.scene().update(moment);
+    PointLighting lighting(workbench.device());
     const CostClock clock(workbench.device());
+    const auto measureInto = [&](Measurement& again) {
+        measure(again, workbench.device(), lighting, workbench.scene(), moment, technique, options);
+    };
     Measurement::Cost cost{.runs_ms = {}, .clock = std::string(clock.name())};
     // Other points in between, so that a technique has no answer left of the last run.
     Measurement other = prepared;
     other.set.points.resize(std::min<std::size_t>(other.set.points.size(), 1));
     for (int run = 0; run < runs; ++run) {
         Measurement again = other;
-        measure(again, workbench, moment, technique, options);
+        measureInto(again);
         again = prepared;
-        cost.runs_ms.push_back(
-            clock.milliseconds([&] { measure(again, workbench, moment, technique, options); }));
+        cost.runs_ms.push_back(clock.milliseconds([&] { measureInto(again); }));
     }
     return cost;
 }
