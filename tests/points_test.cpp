@@ -61,6 +61,23 @@ TEST_F(PointsTest, AreAnsweredAsIfEachWereAlone) {
         EXPECT_EQ(ask(*technique, {positions[i]}).front(), together[i]) << i;
 }
 
+// Most of them see all of the light or nothing, which is found for many at once.
+TEST_F(PointsTest, OfAPlanAreAnsweredAsIfEachWereAlone) {
+    const auto technique = workbench().makeTechnique("exact");
+    std::vector<Vec3> positions;
+    constexpr int rows = 24, columns = 32;
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column)
+            positions.push_back(
+                {-1.6f + 0.1f * float(column), 0.3f * float(row % 3), -1.2f + 0.1f * float(row)});
+    }
+    const std::vector<float> together = ask(*technique, positions);
+    EXPECT_GT(std::ranges::count(together, 0.0f), rows * columns / 8);
+    EXPECT_GT(std::ranges::count(together, 1.0f), rows * columns / 8);
+    for (std::size_t i = 0; i < positions.size(); i += 5)
+        EXPECT_EQ(ask(*technique, {positions[i]}).front(), together[i]) << i;
+}
+
 TEST_F(PointsTest, ThatAPictureShowsAreAsInThePicture) {
     const Camera& camera = moment_.cameras.front();
     const auto technique = workbench().makeTechnique("exact");

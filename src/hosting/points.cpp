@@ -15,8 +15,10 @@
 namespace penumbra {
 namespace {
 
-/// Points that follow each other fill squares of this many pixels a side, which techniques look at together.
+/// Points that follow each other fill squares of this many pixels a side, which techniques look at together,
+/// and in them, eight by eight, rectangles of half the width and a quarter of the height.
 constexpr std::size_t side_px = 8, squarePoints = side_px * side_px;
+constexpr std::size_t partWidth_px = 4, partHeight_px = 2, partPoints = partWidth_px * partHeight_px;
 
 /// Squares side by side: a texture that many points make nearly square, and few not larger than needed.
 constexpr std::size_t mostAcross = 128;
@@ -40,8 +42,10 @@ struct Points::Internals {
 
     std::size_t pixelOf(std::size_t point) const {
         const std::size_t square = point / squarePoints, within = point % squarePoints;
-        const std::size_t x = side_px * (square % across) + within % side_px;
-        const std::size_t y = side_px * (square / across) + within / side_px;
+        const std::size_t part = within / partPoints, inPart = within % partPoints;
+        const std::size_t x = side_px * (square % across) + partWidth_px * (part % 2) + inPart % partWidth_px;
+        const std::size_t y =
+            side_px * (square / across) + partHeight_px * (part / 2) + inPart / partWidth_px;
         return y * side_px * across + x;
     }
 };
