@@ -10,7 +10,7 @@ layout(local_size_x = 32) in;
 #include "src/techniques/exact_visibility/underfoot.glsl"
 #include "src/techniques/exact_visibility/exact_io.h"
 
-layout(std430) writeonly buffer Candidates { uint candidates[]; };  // frame.tileCapacity a tile
+layout(std430) buffer Candidates { uint candidates[]; };  // frame.tileCapacity a tile
 layout(std430) writeonly buffer TileLists { TileList tileLists[]; };
 layout(std430) buffer Busy { BusyTiles busy; uint busyTiles[]; };
 layout(std140) uniform Constants { ExactKeeping keeping; };
@@ -189,10 +189,49 @@ float wholeSize(TileBounds bounds) {
     return 2.0 * spacing * min(max(light.emitter.halfSize.x, light.emitter.halfSize.y) / distance_m, widestTangent);
 }
 
-// Whether a node is listed as a whole. Any choice gives the same result.
+// Whether a node is listed as a whole: its parts are no nearer to each other than samples, or than receivers are. Any choice
+// gives the same result.
 bool isSmall(TileBounds bounds, float size, TreeNode node) {
+    const float ofTile = 0.25;
     float away = distance(0.5 * (node.boxMin + node.boxMax), 0.5 * (bounds.low + bounds.high));
-    return 0.5 * distance(node.boxMin, node.boxMax) < size * away;
+    return 0.5 * distance(node.boxMin, node.boxMax) < max(size * away, ofTile * distance(bounds.low, bounds.high));
+}
+
+// Whether a node is larger than the tile: of such ones one or a few may hide all of the light.
+bool isLarge(TileBounds bounds, TreeNode node) {
+    return distance(node.boxMin, node.boxMax) > distance(bounds.low, bounds.high);
+}
+
+// Whether each way from the receivers to the light passes an edge on the same side: `from`, from where the edge begins, is the
+// middle of the receivers, `to` that of the light (distant: the direction to it); `side` is 1 or -1.
+bool isPassed(vec3 from, vec3 fromExtent, vec3 to, vec3 toExtent, vec3 edge, float side) {
+    vec3 across = cross(edge, to), along = cross(from, edge);
+    float sizes = length(edge) * (length(to) + length(toExtent)) * (length(from) + length(fromExtent));
+    float reach = dot(abs(across), fromExtent) + dot(abs(along), toExtent) +
+                  length(edge) * length(fromExtent) * length(toExtent) + 1e-5 * sizes;
+    return side * dot(from, across) + reach < 0.0;
+}
+
+// Whether a plain triangle stands between each of the receivers and all of the light: its plane parts them, and all ways pass
+// inside of its edges, by more than rounding does. Then nobody need look at anything else.
+bool hidesAll(TileBounds bounds, uint triangle) {
+    vec3 a = loadCorner(triangle, 0u), b = loadCorner(triangle, 1u), c = loadCorner(triangle, 2u);
+    bool isDistant = light.emitter.shape == shapeDistant;
+    vec3 middle = 0.5 * (bounds.low + bounds.high), extent = 0.5 * (bounds.high - bounds.low);
+    vec3 lightMiddle = 0.5 * (light.boxMin + light.boxMax), lightExtent = 0.5 * (light.boxMax - light.boxMin);
+    vec3 normal = normalize(cross(b - a, c - a));
+    float ahead = dot(normal, lightMiddle - (isDistant ? vec3(0.0) : a)), behind = dot(normal, middle - a);
+    float side = ahead > 0.0 ? 1.0 : -1.0;
+    float size = distance(a, middle) + distance(b, a) + distance(c, a) + length(extent);
+    float lightSize = isDistant ? 1.0 : size + distance(a, lightMiddle) + length(lightExtent);
+    bool parts = side * ahead > dot(abs(normal), lightExtent) + 1e-4 * lightSize &&
+                 -side * behind > dot(abs(normal), extent) + 1e-4 * size;
+    // Of a picture it depends on each pixel's depth how far above a triangle lies what lies on it.
+    bool mayBeUnderfoot = !view.isOfPoints && abs(dot(normal, bounds.normal)) + bounds.otherNormal > 0.98;
+    return parts && !mayBeUnderfoot &&
+           isPassed(middle - a, extent, lightMiddle - (isDistant ? vec3(0.0) : a), lightExtent, b - a, side) &&
+           isPassed(middle - b, extent, lightMiddle - (isDistant ? vec3(0.0) : b), lightExtent, c - b, side) &&
+           isPassed(middle - c, extent, lightMiddle - (isDistant ? vec3(0.0) : c), lightExtent, a - c, side);
 }
 
 // Whether a box may reach the light, so that it depends on the sample what blocks; or its plane.
@@ -284,25 +323,28 @@ void main() {
     // Plain nodes from the front of the tile's part of the lists, those that take a test a sample from its back.
     uint capacity = uint(frame.tileCapacity);
     uint first = tile * capacity;
-    uint plain = 0u, special = 0u;
+    uint plain = 0u, special = 0u, large = 0u;
     float size = wholeSize(bounds);
     Walk walk = Walk(!isAllDark && light.nodeCount > 0 ? 0u : EXACT_END, EXACT_END);
     uint caster = EXACT_INNER;  // whose subtree we are in, as the tree over the casters has it
     uint node = 0u;             // looked at last,
     uint triangle = 0u, end = 0u;  // and which of its triangles have not been looked at
-    bool isSpecial = false;
+    bool isSpecial = false, isOfLarge = false;
     // Whoever does not get to the end here leaves the rest to the receivers.
     const int longestWalk = 40000;
-    for (int step_ = 0; triangle < end || (step_ < longestWalk && walk.node != EXACT_END && plain + special < capacity); ++step_) {
+    for (int step_ = 0; !isAllDark && (triangle < end || (step_ < longestWalk && walk.node != EXACT_END && plain + special < capacity));
+         ++step_) {
         bool lists = triangle < end;
         if (lists) {
             lists = mayHideFromTile(bounds, sides, triangle);
+            isAllDark = lists && !isSpecial && hidesAll(bounds, triangle);
             ++triangle;
         } else {
             node = walk.node;
             TreeNode visited = loadNode(node);
             bool isHit = mayBlockTile(shaft, sides, bounds, visited);
             isSpecial = (caster & EXACT_MASKED) != 0u || mayReachLight(bounds, visited.boxMin, visited.boxMax);
+            isOfLarge = isLarge(bounds, visited);
             lists = isHit && visited.leaf == EXACT_INNER && caster != EXACT_INNER && isSmall(bounds, size, visited);
             if (isHit && hasTriangles(visited)) {
                 triangle = firstTriangle(visited.leaf);
@@ -317,11 +359,21 @@ void main() {
         }
         if (lists) {
             uint place = isSpecial ? capacity - 1u - special : plain;
+            // What is large comes first, for who is dark looks at no more.
+            if (isOfLarge && !isSpecial) {
+                candidates[first + plain] = candidates[first + large];
+                place = large;
+                ++large;
+            }
             candidates[first + place] = node;
             plain += isSpecial ? 0u : 1u;
             special += isSpecial ? 1u : 0u;
             triangle = end;
         }
+    }
+    if (isAllDark) {
+        plain = special = 0u;
+        walk = Walk(EXACT_END, EXACT_END);
     }
     tileLists[tile] = TileList(plain, special, walk.node, walk.returnTo);
 
@@ -329,7 +381,7 @@ void main() {
     // texture a channel may emit nothing, of which nobody sees anything.)
     bool isOpen = plain + special == 0u && walk.node == EXACT_END && !light.emitter.isTextured;
     if (isAllDark || (isOpen && !isCutForAny(corner, isKnown))) {
-        settle(corner, isKnown, isAllDark ? 0.0 : 1.0);
+        settle(corner, isKnown || isAllDark, isAllDark ? 0.0 : 1.0);
     } else {
         uint place = atomicAdd(busy.count, 1u);
         busyTiles[place] = tile;

@@ -311,13 +311,32 @@ void ExactVisibility::resolve(const Stage& stage, const AreaLight& light, const 
     bindMaskGroup(pass, maskTextures_, 0);
     ExactRound round{.number = 0, .work = roundWork_, .turnRounds = turnRounds, .groups = groups};
     pass.constants(round).dispatchIndirect(busy_);
-    while (++round.number < turns * turnRounds) {
-        if (groups > 1 && round.number % turnRounds == 0)
-            bindMaskGroup(pass, maskTextures_, round.number / turnRounds % groups);
+    const bool looks = stage.view.isOfPoints && device_.isSoftware;
+    for (int turn = 0;;) {
+        ++round.number;
+        if (looks) round.number = askedRound(round.number, turns * turnRounds);
+        if (round.number >= turns * turnRounds) break;
+        if (groups > 1 && std::exchange(turn, round.number / turnRounds) != round.number / turnRounds)
+            bindMaskGroup(pass, maskTextures_, turn % groups);
         // Without work groups where nobody asked for the round.
         pass.constants(round).dispatchIndirect(rounds_,
                                                3 * sizeof(std::uint32_t) * std::size_t(round.number));
     }
+}
+
+/// The next round, of `count`, for which somebody has asked, or `count`. Software has done all that it was
+/// told, so that a look costs less than rounds for nobody; who asks at points waits for the answer anyway.
+int ExactVisibility::askedRound(int next, int count) const {
+    constexpr int atATime = 256;
+    std::array<std::array<std::uint32_t, 3>, atATime> groups;
+    while (next < count) {
+        const std::span some = std::span(groups).first(std::size_t(std::min(count - next, atATime)));
+        rounds_.read(std::as_writable_bytes(some), sizeof(groups[0]) * std::size_t(next));
+        const auto asked = std::ranges::find_if(some, [](const auto& round) { return round[0] > 0; });
+        next += int(asked - some.begin());
+        if (asked != some.end()) break;
+    }
+    return next;
 }
 
 void ExactVisibility::inspect(InspectionVisitor& visitor) const {

@@ -79,6 +79,7 @@ class ExactVisibility final : public Technique {
     void describeKey(const Stage& stage, const AreaLight& light);
     bool canKeep(const Stage& stage, const AreaLight& light, const LightAnswer& answer);
     std::size_t countSpecial(const glm::vec3& eye, const ExactLight& light, LightShape shape) const;
+    int askedRound(int next, int count) const;
     int roundsFor(std::span<const LightLattice> lattices, std::size_t special) const;
     const std::vector<LightLattice>& latticesFor(const AreaLight& light);
     void sendMasks();

@@ -347,7 +347,7 @@ void main() {
         bool isLast = group == round_.groups - 1 || !anyOfUs(!isDark);
         if (isLast) {
             progress.part += round_.groups - 1 - group;
-            addUp(sums, seen, patch_, receiver.normalLight, lattice, offset, isOn);
+            addUp(sums, seen, patch_, receiver.normalLight, lattice, offset, isOn, patches * light.latticeCount == 1);
             for (int j = 0; j < ROWS; ++j) hidden[j] = 0u;  // what is saved of a window that has not begun
             work += 32 * ROWS;
         }

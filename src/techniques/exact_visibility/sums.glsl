@@ -45,11 +45,24 @@ void addWeights(inout Sums sums, SeenLight seen, Patch patch_, vec3 normal, int 
     }
 }
 
-void addUp(inout Sums sums, SeenLight seen, Patch patch_, vec3 normal, int lattice, vec2 offset, bool counts) {
+// `isOnly`: one window on one lattice is all that the receiver sees the light through.
+void addUp(inout Sums sums, SeenLight seen, Patch patch_, vec3 normal, int lattice, vec2 offset, bool counts, bool isOnly) {
 #ifdef WITH_WEIGHTS
     const bool uneven = true;
-    addWeights(sums, seen, patch_, normal, lattice, offset, counts && isWhole(patch_), true);
-    addWeights(sums, seen, patch_, normal, lattice, offset, counts && !isWhole(patch_), false);
+    bool isAnySeen = false, isAnyHidden = false;
+    for (int j = 0; j < ROWS; ++j) {
+        isAnySeen = isAnySeen || hidden[j] != 0xffffffffu;
+        isAnyHidden = isAnyHidden || hidden[j] != unlit[j];
+    }
+    // Of what is seen as a whole, or not at all, nothing need be weighed. (A texture may emit nothing, of which nobody sees
+    // anything.)
+    bool isAlike = counts && isOnly && !(isAnySeen && (isAnyHidden || light.emitter.isTextured));
+    addWeights(sums, seen, patch_, normal, lattice, offset, counts && !isAlike && isWhole(patch_), true);
+    addWeights(sums, seen, patch_, normal, lattice, offset, counts && !isAlike && !isWhole(patch_), false);
+    if (isAlike) {
+        sums.seen = vec3(isAnySeen ? 1.0 : 0.0);
+        sums.whole = vec3(1.0);
+    }
 #else
     const bool uneven = false;
 #endif
