@@ -180,6 +180,10 @@ Misuse::Calls Misuse::calls() {
          textured(GL_DEPTH_COMPONENT24, 0, [this](GLuint name) { casters_[1].alphaMask.texture = name; })},
         {"an alpha mask with a cutoff that is no number",
          render([this] { casters_[1].alphaMask.cutoff = nan; })},
+        {"a caster that lets more light pass than there is", render([this] {
+             casters_[1].transmittance = {0.5f, 1.5f, 0.5f};
+         })},
+        {"a transmittance with a NaN", render([this] { casters_[1].transmittance.z = nan; })},
         {"a view without a depth texture", render([&] { view.depthTexture = 0; })},
         {"a depth texture that is none", render([&] { view.depthTexture = noTexture; })},
         {"colours for depth", textured(GL_RGBA8, 0, [&](GLuint name) { view.depthTexture = name; })},
@@ -224,8 +228,8 @@ Misuse::Calls Misuse::calls() {
          textured(GL_RGBA8, 2, [&](GLuint name) { light.radianceTexture = name; })},
         {"a textured light and a gray buffer",
          textured(GL_RGBA8, 0, [&](GLuint name) { light.radianceTexture = name; })},
-        {"a colored buffer and a light without texture",
-         render([this] { out_.emplace(device(), out_->width_px(), out_->height_px(), true); })},
+        {"a caster that lets light pass and a gray buffer",
+         render([this] { casters_[1].transmittance.y = 0.5f; })},
         {"a buffer of another size than the view", render([this] { out_->resize(5, 5); })},
         {"a buffer of another device", render([this] {
              otherDevice_.emplace();

@@ -47,9 +47,10 @@ glm::dvec3 parsePoint(std::string_view flag, const std::string& text) {
     return point;
 }
 
-std::vector<std::string> unitNames() {
+template <typename Value>
+std::vector<std::string> namesIn(std::span<const std::pair<std::string_view, Value>> table) {
     std::vector<std::string> names;
-    for (const auto& [name, unit_m] : lengthUnits_m()) names.emplace_back(name);
+    for (const auto& [name, value] : table) names.emplace_back(name);
     return names;
 }
 
@@ -64,14 +65,15 @@ void addFileFlags(CLI::App& command, SceneArguments& arguments) {
         ->delimiter(',')
         ->allow_extra_args(false);
     command.add_option("--unit", arguments.unit, "of the file's coordinates, which glTF counts in metres")
-        ->check(CLI::IsMember(unitNames()))
+        ->check(CLI::IsMember(namesIn(lengthUnits_m())))
         ->capture_default_str();
     command.add_option("--up", arguments.up, "which axis of the file points up; in glTF Y does")
         ->check(CLI::IsMember({"y", "z"}))
         ->capture_default_str();
     command
-        .add_option("--glass", arguments.glass, "clear: glass lets light through; blocks: it casts shadows")
-        ->check(CLI::IsMember({"clear", "blocks"}))
+        .add_option("--glass", arguments.glass,
+                    "clear: glass lets light through; tinted: it takes its share; blocks: it casts shadows")
+        ->check(CLI::IsMember(namesIn(glassNames())))
         ->capture_default_str();
     command.add_option("--light-radius", arguments.lightRadius_m, "metres: for lamps that have no size")
         ->check(CLI::Range(1e-4f, 1e4f));
@@ -153,9 +155,10 @@ void SceneArguments::addFlagsTo(CLI::App& command) {
 
 OpenOptions SceneArguments::openOptions() const {
     const auto unit_m = std::ranges::find(lengthUnits_m(), unit, &std::pair<std::string_view, double>::first);
+    const auto named = std::ranges::find(glassNames(), glass, &std::pair<std::string_view, Glass>::first);
     OpenOptions options{.sun = sun.option(),
                         .scene = sceneIndex,
-                        .glass = glass == "clear" ? Glass::clear : Glass::blocks,
+                        .glass = named->second,
                         .unit_m = unit_m->second,
                         .up = up == "y" ? UpAxis::y : UpAxis::z,
                         .lightSizes = {lightRadius_m, glm::radians(sunAngle_deg)}};

@@ -69,13 +69,11 @@ Value oneOf(std::string_view what, std::string_view name,
 ScenePointer open(const std::filesystem::path& name, const std::optional<std::filesystem::path>& lights,
                   std::optional<int> scene, const std::optional<std::vector<int>>& animations,
                   const std::string& glass, const std::string& unit, const std::string& up) {
-    constexpr std::pair<std::string_view, Glass> glasses[] = {{"clear", Glass::clear},
-                                                              {"blocks", Glass::blocks}};
     constexpr std::pair<std::string_view, UpAxis> axes[] = {{"y", UpAxis::y}, {"z", UpAxis::z}};
     const OpenOptions options{.lightsFile = lights,
                               .animations = animations,
                               .scene = scene,
-                              .glass = oneOf<Glass>("glass", glass, glasses),
+                              .glass = oneOf<Glass>("glass", glass, glassNames()),
                               .unit_m = oneOf<double>("unit", unit, lengthUnits_m()),
                               .up = oneOf<UpAxis>("up", up, axes)};
     auto opened = std::make_shared<Scene>(openScene(name.string(), options));
@@ -163,7 +161,7 @@ Raises InputError ("lights:2: ..." is of the second light).)");
 lights: a file of lights (docs/lights.md) instead of NAME.lights.json beside the scene.
 scene: which of the file's scenes, by index; its default without.
 animations: indices of those that play together, [] for none; without, all that move different things.
-glass: "clear" lets light through, "blocks" casts shadows.
+glass: "clear" lets light through, "tinted" takes its share of it, "blocks" casts shadows.
 unit: of the file's coordinates: "mm", "cm", "m", "in", "ft". up: its axis that points up, "y" or "z".
 
 A scene without a light gets a key light, one without a camera gets one; Python's warnings say so, and all that is odd.

@@ -117,8 +117,19 @@ struct Caster {
     /// is left of the mesh casts.
     Mat4 worldFromMesh{};
     AlphaMask alphaMask{};
+    /// A pane's share of the light that passes, in [0, 1], a channel each (linear Rec. 709); 0: none. A ray
+    /// that meets several triangles of a caster, as both faces of a slab, passes it once; through several
+    /// casters passes the product. Techniques that know no panes (Technique::answersPanes) take those that
+    /// let anything pass for no casters.
+    Vec3 transmittance{0, 0, 0};
     bool casts = true;     ///< false: blocks no light
     bool receives = true;  ///< false: its pixels are not shadowed (see View::receiverTexture)
 };
+
+/// Whether it takes only a share of the light.
+constexpr bool isPane(const Caster& caster) {
+    const Vec3& passes = caster.transmittance;
+    return caster.casts && (passes.x > 0 || passes.y > 0 || passes.z > 0);
+}
 
 }  // namespace penumbra

@@ -26,23 +26,26 @@ namespace penumbra {
 /// outer lines as seen from there), with no cosine and no distance weight. Where none of the light is above
 /// the horizon it is 0.
 ///
+/// Behind panes (Caster::transmittance), and of textured lights, each channel has a visibility of its own,
+/// for which the buffer must be colored: see `needsColor`. Where nothing asks for it, it may be.
+///
 /// A buffer that was moved from can be destroyed and assigned to; all else throws Error::Kind::badArgument.
 class PENUMBRA_API VisibilityBuffer {
   public:
-    /// Makes its own texture: GL_R32F, or GL_RGBA16F (alpha unused) for a textured light. Both sizes >= 1.
+    /// Makes its own texture: GL_R32F, or GL_RGBA16F (alpha unused) where colored. Both sizes >= 1.
     VisibilityBuffer(Device& device, int width_px, int height_px, bool colored = false);
 
     /// A rectangle of a texture of the host's. What lies around it is not written.
     struct HostTexture {
         /// GL_TEXTURE_2D, borrowed, whose level 0 is written: any of GL_R8, R16, R16F, R32F, RG8, RG16,
         /// RG16F, RG32F, RGBA8, RGBA16, RGBA16F, RGBA32F, RGB10_A2, R11F_G11F_B10F; at least three channels
-        /// for a textured light.
+        /// where colored.
         std::uint32_t texture = 0;
         int x_px = 0, y_px = 0;  ///< lower left corner
         int width_px = 0, height_px = 0;
     };
     /// Writes into the host's texture: at no extra cost where the rectangle starts at (0, 0) and the format
-    /// is GL_R32F, or GL_RGBA16F for a textured light; else by a copy. Throws Error::Kind::badArgument where
+    /// is GL_R32F, or GL_RGBA16F where colored; else by a copy. Throws Error::Kind::badArgument where
     /// the texture has another format than those above or does not contain the rectangle.
     VisibilityBuffer(Device& device, const HostTexture& host, bool colored = false);
 
@@ -72,6 +75,10 @@ struct ShadowInputs {
     AreaLight light{};
     std::span<const Caster> casters{};
 };
+
+/// Whether a light's visibility differs by channel, so that its VisibilityBuffer must be colored: it is
+/// textured, or a caster is a pane.
+PENUMBRA_API bool needsColor(const AreaLight& light, std::span<const Caster> casters);
 
 /// One of the lights of a frame.
 struct FrameLight {
@@ -140,7 +147,7 @@ class PENUMBRA_API Technique {
     /// visitor gets are valid during the visit.
     virtual void describe(ParameterVisitor& visitor) = 0;
 
-    /// Fills `out`, which has the view's size and is colored where the light is textured. Equal inputs give
+    /// Fills `out`, which has the view's size and is colored where `needsColor` says so. Equal inputs give
     /// equal bits. The host may then sample, fetch, load or blit from the texture without a barrier of its
     /// own.
     ///
@@ -160,6 +167,10 @@ class PENUMBRA_API Technique {
     /// for it, as long and as wide, that shines both ways and is turned to the middle of the casters' boxes;
     /// a warning in the log says so once.
     virtual bool answersTubes() const { return false; }
+
+    /// Whether `render` takes from the light what panes take (Caster::transmittance). Where it does not,
+    /// panes cast no shadow; a warning in the log says so once.
+    virtual bool answersPanes() const { return false; }
 
     /// Visits the intermediate buffers of the last render, or of the light that was answered last.
     virtual void inspect(InspectionVisitor&) const {}

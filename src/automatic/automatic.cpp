@@ -76,15 +76,25 @@ Technique& Automatic::take(std::size_t step) {
     return taken;
 }
 
-/// Of those that answer `what` the cheapest that keeps the error: a dearer one errs less.
-Technique& Automatic::takeOneThat(bool (Technique::*answers)() const, const char* what) {
+bool Automatic::Asked::isAnsweredBy(const Technique& technique) const {
+    return (!points || technique.answersAtPoints()) && (!tubes || technique.answersTubes()) &&
+           (!panes || technique.answersPanes());
+}
+
+std::string Automatic::Asked::words() const {
+    return std::string(points ? " at points" : "") + (tubes ? " tubes" : "") + (panes ? " panes" : "");
+}
+
+/// Whose turn it is; where that one does not answer what is asked, of those that do the cheapest that keeps
+/// the error: a dearer one errs less. Points have no steady state whose time could be kept.
+std::size_t Automatic::stepFor(const Asked& asked) {
+    const std::size_t current = keeper_.current();
+    if (!asked.points && asked.isAnsweredBy(take(current))) return current;
     for (std::size_t step = keeper_.wanted() + 1; step-- > 0;) {
-        Technique& technique = take(step);
-        if ((technique.*answers)()) return technique;
+        if (asked.isAnsweredBy(take(step))) return step;
     }
-    throw Error(Error::Kind::badArgument, std::string("auto: no technique answers ") + what +
-                                              " with max_error " + shortest(maxError_) +
-                                              ": take another than auto");
+    throw Error(Error::Kind::badArgument, "auto: no technique answers" + asked.words() + " with max_error " +
+                                              shortest(maxError_) + ": take another than auto");
 }
 
 bool Automatic::hasBudget() const {
@@ -98,23 +108,19 @@ void Automatic::requirePromise() const {
                                               shortest(maxError_));
 }
 
-/// Whether the technique whose turn it is does not answer a light.
-bool Automatic::takesAnotherFor(const AreaLight& light) {
-    return light.shape == LightShape::cylinder && !take(keeper_.current()).answersTubes();
-}
-
-Technique& Automatic::takeFor(const View& view, bool takesAnother) {
-    if (view.isOfPoints) return takeOneThat(&Technique::answersAtPoints, "at points");
-    return takesAnother ? takeOneThat(&Technique::answersTubes, "tubes") : take(keeper_.current());
+/// What of a light not every technique answers. A colored buffer without a picture is one for panes.
+Automatic::Asked Automatic::askedOf(const View& view, const FrameLight& one) {
+    return {.points = view.isOfPoints,
+            .tubes = one.light.shape == LightShape::cylinder,
+            .panes = one.out->colored() && one.light.radianceTexture == 0};
 }
 
 void Automatic::render(const ShadowInputs& inputs, VisibilityBuffer& out) {
     requirePromise();
-    // Points have no steady state whose time could be kept.
     const bool keepsTime = hasBudget() && !inputs.view.isOfPoints;
     if (hasBudget() && frames_.begins(inputs)) endFrame();
     keeper_.want(maxError_, budget_ms_);
-    Technique& technique = takeFor(inputs.view, takesAnotherFor(inputs.light));
+    Technique& technique = take(stepFor(askedOf(inputs.view, {.light = inputs.light, .out = &out})));
     if (keepsTime) {
         measure(inputs, out, technique);
     } else {
@@ -127,15 +133,15 @@ void Automatic::renderLights(const FrameInputs& frame) {
     requirePromise();
     keeper_.want(maxError_, budget_ms_);
     // Those that stand side by side and have one technique at once.
-    const auto takesAnother = [&](const FrameLight& one) { return takesAnotherFor(one.light); };
+    const auto stepOf = [&](const FrameLight& one) { return stepFor(askedOf(frame.view, one)); };
     for (auto begin = frame.lights.begin(); begin != frame.lights.end();) {
-        const bool isAnother = takesAnother(*begin);
+        const std::size_t step = stepOf(*begin);
         const auto end = std::find_if(begin, frame.lights.end(),
-                                      [&](const FrameLight& one) { return takesAnother(one) != isAnother; });
+                                      [&](const FrameLight& one) { return stepOf(one) != step; });
         FrameInputs part{.view = frame.view, .casters = frame.casters, .lights = {begin, end}};
         const auto before = std::size_t(begin - frame.lights.begin());
         if (frame.answered) part.answered = [&frame, before](std::size_t i) { frame.answered(before + i); };
-        takeFor(frame.view, isAnother).renderLights(part);
+        take(step).renderLights(part);
         begin = end;
     }
 }

@@ -6,6 +6,7 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "penumbra/promise.h"
@@ -36,16 +37,23 @@ class Automatic final : public Technique {
     /// Through those that do.
     bool answersAtPoints() const override { return true; }
     bool answersTubes() const override { return true; }
+    bool answersPanes() const override { return true; }
     void inspect(InspectionVisitor& visitor) const override;
     Statistics statistics() const override;
 
   private:
+    /// What not every technique answers.
+    struct Asked {
+        bool points, tubes, panes;
+        bool isAnsweredBy(const Technique& technique) const;
+        std::string words() const;
+    };
+
     void requirePromise() const;
     bool hasBudget() const;
-    bool takesAnotherFor(const AreaLight& light);
-    Technique& takeFor(const View& view, bool takesAnother);
+    static Asked askedOf(const View& view, const FrameLight& one);
+    std::size_t stepFor(const Asked& asked);
     Technique& take(std::size_t step);
-    Technique& takeOneThat(bool (Technique::*answers)() const, const char* what);
     Technique& technique(std::string_view name) const;  ///< one that was made
     void measure(const ShadowInputs& inputs, VisibilityBuffer& out, Technique& technique);
     void endFrame();

@@ -99,7 +99,7 @@ void checkLight(const AreaLight& light) {
 }
 
 void checkOutput(const VisibilityBuffer& out, const View& view, const AreaLight& light,
-                 const Device::Internals& device) {
+                 std::span<const Caster> casters, const Device::Internals& device) {
     const VisibilityBuffer::Internals& internals = internalsOf(out);
     if (internals.device.get() != &device)
         refuse("VisibilityBuffer:",
@@ -110,11 +110,11 @@ void checkOutput(const VisibilityBuffer& out, const View& view, const AreaLight&
                                         std::to_string(view.width_px) + "x" + std::to_string(view.height_px) +
                                         ": call VisibilityBuffer::resize");
     }
-    if (out.colored() && light.radianceTexture == 0)
-        refuse("VisibilityBuffer:",
-               "it is colored and the light has no texture: make it with colored = false");
     if (!out.colored() && light.radianceTexture != 0)
         refuse("VisibilityBuffer:", "the light has a texture: make the buffer with colored = true");
+    if (!out.colored() && needsColor(light, casters))
+        refuse("VisibilityBuffer:",
+               "a caster lets a share of the light pass: make the buffer with colored = true");
     if (internals.host.texture == 0) return;
     if (gl::targetOf(internals.host.texture) != GL_TEXTURE_2D)
         refuse("VisibilityBuffer:",
@@ -268,7 +268,7 @@ void checkFrame(const FrameInputs& frame, const Device::Internals& device) {
             if (before.out == out) refuse(argument, "is another light's, too: give each light its own");
         }
         checkLight(light);
-        checkOutput(*out, frame.view, light, device);
+        checkOutput(*out, frame.view, light, castsShadow ? frame.casters : std::span<const Caster>(), device);
     }
 }
 

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "penumbra/technique.h"
 
+#include <algorithm>
+
 namespace penumbra {
+
+bool needsColor(const AreaLight& light, std::span<const Caster> casters) {
+    return light.radianceTexture != 0 || std::ranges::any_of(casters, isPane);
+}
 
 void Technique::renderLights(const FrameInputs& frame) {
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {

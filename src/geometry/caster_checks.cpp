@@ -48,6 +48,11 @@ void checkCasters(std::span<const Caster> casters, const Device::Internals& devi
                    "its own middle, and the way there in worldFromMesh");
         }
         requireAffine(caster.worldFromMesh, {"ShadowInputs: casters", i, ".worldFromMesh"});
+        for (const float share : {caster.transmittance.x, caster.transmittance.y, caster.transmittance.z}) {
+            if (!(share >= 0 && share <= 1))  // nor a NaN
+                refuse({"ShadowInputs: casters", i, ".transmittance"},
+                       "is not from 0 to 1 in each channel: it is the share of the light that passes");
+        }
         const AlphaMask& mask = caster.alphaMask;
         if (!std::isfinite(mask.factor) || !std::isfinite(mask.cutoff))
             refuse({"ShadowInputs: casters", i, ".alphaMask"}, "has a factor or cutoff that is not finite");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/hosting/hosted_technique.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "src/device/host_scope.h"
@@ -31,8 +32,8 @@ void HostedTechnique::render(const ShadowInputs& inputs, VisibilityBuffer& out) 
 
 void HostedTechnique::renderLights(const FrameInputs& frame) {
     const HostScope scope(internalsOf(device_));
-    checkFrame(frame, internalsOf(device_));
     checkCasters(frame.casters, internalsOf(device_));
+    checkFrame(frame, internalsOf(device_));
     if (frame.view.isOfPoints && !answersAtPoints()) {
         refuse("View: isOfPoints:",
                "this technique needs a picture: take one that answers at points, such as exact or auto");
@@ -42,14 +43,14 @@ void HostedTechnique::renderLights(const FrameInputs& frame) {
     const ReadableTexture depth(frame.view.depthTexture), normals(frame.view.normalTexture),
         shadingNormals(frame.view.shadingNormalTexture), receivers(frame.view.receiverTexture);
     lights_.clear();
+    const std::span<const Caster> casters = castersFor(frame.casters);
     for (const auto& [light, out, castsShadow] : frame.lights) {
         warnOfTube(light);
         ShadowInputs inputs{.view = frame.view, .light = light};
-        if (castsShadow) inputs.casters = frame.casters;
-        lights_.push_back({lightFor(*technique_, inputs), &plain(*out, lights_.size()), castsShadow});
+        if (castsShadow) inputs.casters = casters;
+        lights_.push_back({lightFor(*technique_, inputs), &plain(*out, light, lights_.size()), castsShadow});
     }
-    technique_->renderLights(
-        {view_.prepare(frame.view, frame.casters), frame.casters, lights_, frame.answered});
+    technique_->renderLights({view_.prepare(frame.view, frame.casters), casters, lights_, frame.answered});
     for (std::size_t i = 0; i < lights_.size(); ++i) deliver(*lights_[i].out, *frame.lights[i].out);
     // Whatever the host does with it next.
     internalsOf(device_).shaders.order()->makeAllVisible();
@@ -80,13 +81,29 @@ void HostedTechnique::warnOfTube(const AreaLight& light) {
                                    "casters: exact and auto answer them as they are");
 }
 
-VisibilityBuffer& HostedTechnique::plain(VisibilityBuffer& out, std::size_t place) {
-    if (internalsOf(out).isPlain()) return out;
+/// Panes are none for a technique that does not answer them.
+std::span<const Caster> HostedTechnique::castersFor(std::span<const Caster> casters) {
+    if (answersPanes() || std::ranges::none_of(casters, isPane)) return casters;
+    if (!std::exchange(hasWarnedOfPanes_, true)) {
+        internalsOf(device_).log.write(
+            LogLevel::warning,
+            "this technique lets all light through casters that let a share of it pass: "
+            "exact and auto answer them as they are");
+    }
+    casters_.assign(casters.begin(), casters.end());
+    for (Caster& caster : casters_) caster.casts = caster.casts && !isPane(caster);
+    return casters_;
+}
+
+VisibilityBuffer& HostedTechnique::plain(VisibilityBuffer& out, const AreaLight& light, std::size_t place) {
+    // Techniques that know of no panes answer in colour for textured lights alone.
+    const bool colored = out.colored() && (light.radianceTexture != 0 || answersPanes());
+    if (internalsOf(out).isPlain() && colored == out.colored()) return out;
     if (detours_.size() <= place) detours_.resize(place + 1);
     std::optional<VisibilityBuffer>& detour = detours_[place];
-    if (!detour || detour->colored() != out.colored()) {
-        detour = VisibilityBuffer::Internals::make(internalsOf(device_), out.width_px(), out.height_px(),
-                                                   out.colored());
+    if (!detour || detour->colored() != colored) {
+        detour =
+            VisibilityBuffer::Internals::make(internalsOf(device_), out.width_px(), out.height_px(), colored);
     }
     detour->resize(out.width_px(), out.height_px());
     return *detour;
@@ -96,13 +113,13 @@ void HostedTechnique::deliver(const VisibilityBuffer& written, const VisibilityB
     if (&written == &out) return;
     if (!copy_) copy_.emplace(internalsOf(device_));
     const VisibilityBuffer::HostTexture& host = internalsOf(out).host;
-    copy_->run({.texture = imageOf(written)},
-               {{.name = host.texture,
+    copy_->run({.texture = imageOf(written), .isGray = !written.colored()},
+               {{.name = out.texture(),
                  .format = gl::Format(internalsOf(out).format),
                  .isLayered = false,
                  .record = &internalsOf(out).written},
                 {host.x_px, host.y_px}},
-               {host.width_px, host.height_px});
+               {out.width_px(), out.height_px()});
 }
 
 void HostedTechnique::inspect(InspectionVisitor& visitor) const {

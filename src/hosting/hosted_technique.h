@@ -23,6 +23,7 @@ class HostedTechnique final : public Technique {
     void renderLights(const FrameInputs& frame) override;
     bool answersAtPoints() const override { return technique_->answersAtPoints(); }
     bool answersTubes() const override { return technique_->answersTubes(); }
+    bool answersPanes() const override { return technique_->answersPanes(); }
     void inspect(InspectionVisitor& visitor) const override;
     Statistics statistics() const override;
 
@@ -30,18 +31,22 @@ class HostedTechnique final : public Technique {
     void diagnoseOnce(const FrameInputs& frame);
     void warnOfPolygonOffset(const PolygonOffset& ofHost, const View& view);
     void warnOfTube(const AreaLight& light);
-    VisibilityBuffer& plain(VisibilityBuffer& out, std::size_t place);
+    std::span<const Caster> castersFor(std::span<const Caster> casters);
+    VisibilityBuffer& plain(VisibilityBuffer& out, const AreaLight& light, std::size_t place);
     void deliver(const VisibilityBuffer& written, const VisibilityBuffer& out);
 
     Device device_;  ///< its own: the host may move or destroy the other
     std::unique_ptr<Technique> technique_;
     HostView view_;
-    /// For rectangles of the host's textures, and formats of its own: by the light's place in its frame.
+    /// For rectangles of the host's textures, formats of its own, and colours that are all the same: by the
+    /// light's place in its frame.
     std::deque<std::optional<VisibilityBuffer>> detours_;
     std::vector<FrameLight> lights_;  ///< as the technique gets them
+    std::vector<Caster> casters_;     ///< the same, where it does not get the host's
     std::optional<TextureCopy> copy_;
     bool isDiagnosed_ = false;
     bool hasWarnedOfTube_ = false;
+    bool hasWarnedOfPanes_ = false;
 };
 
 }  // namespace penumbra

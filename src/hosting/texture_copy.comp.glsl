@@ -16,5 +16,6 @@ layout(std140) uniform Constants { TextureCopyConstants copy; };
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, copy.size_px))) return;
-    imageStore(target, pixel + copy.targetCorner_px, texelFetch(source, pixel + copy.sourceCorner_px, copy.lookedAt));
+    vec4 texel = texelFetch(source, pixel + copy.sourceCorner_px, copy.lookedAt);
+    imageStore(target, pixel + copy.targetCorner_px, copy.isGray ? texel.rrra : texel);
 }

@@ -15,7 +15,8 @@ void TextureCopy::run(const Source& source, const Target& target, const glm::ive
         .constants(TextureCopyConstants{.sourceCorner_px = source.corner_px,
                                         .targetCorner_px = target.corner_px,
                                         .size_px = size_px,
-                                        .lookedAt = source.multisampled ? source.sample : 0})
+                                        .lookedAt = source.multisampled ? source.sample : 0,
+                                        .isGray = source.isGray})
         .bind("source", source.texture)
         .bind("target", target.texture)
         .dispatchPixels(size_px.x, size_px.y);

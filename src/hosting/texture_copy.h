@@ -19,6 +19,7 @@ class TextureCopy {
         glm::ivec2 corner_px{0};
         bool multisampled = false;
         int sample = 0;
+        bool isGray = false;  ///< red is all its colours
     };
     struct Target {
         gl::TextureRef texture;  ///< its record says that it was written

@@ -13,7 +13,8 @@ SHARED_STRUCT TextureCopyConstants {
     ivec2 sourceCorner_px;
     ivec2 targetCorner_px;
     ivec2 size_px;
-    int lookedAt;  // which sample; level 0 of a texture that has one only
+    int lookedAt;   // which sample; level 0 of a texture that has one only
+    bool32 isGray;  // red is all colours of what is read
 };
 
 #ifdef __cplusplus

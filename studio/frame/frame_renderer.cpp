@@ -78,8 +78,13 @@ ShadowInputs FrameRenderer::shadowInputs(const Light& light) const {
     return inputs;
 }
 
+bool FrameRenderer::needsColor(const Light& light) const {
+    const ShadowInputs inputs = shadowInputs(light);
+    return penumbra::needsColor(inputs.light, inputs.casters);
+}
+
 VisibilityBuffer FrameRenderer::makeVisibility(const Light& light) const {
-    return VisibilityBuffer(device_, display_.width_px(), display_.height_px(), light.texture >= 0);
+    return VisibilityBuffer(device_, display_.width_px(), display_.height_px(), needsColor(light));
 }
 
 std::vector<VisibilityBuffer> FrameRenderer::makeVisibilities(std::span<const Light> lights) const {

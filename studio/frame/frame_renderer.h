@@ -40,6 +40,8 @@ class FrameRenderer {
 
     /// What a technique needs to know; without casters for a light that casts no shadow.
     ShadowInputs shadowInputs(const Light& light) const;
+    /// Whether its visibility differs by channel: penumbra::needsColor.
+    bool needsColor(const Light& light) const;
     VisibilityBuffer makeVisibility(const Light& light) const;
 
     /// The same for several lights at once.

@@ -129,6 +129,7 @@ void GpuScene::update(const SceneMoment& moment) {
                             scene_.meshes[std::size_t(first->mesh)].solid == mesh.solid &&
                             first->worldFromMesh == instance.worldFromMesh &&
                             first->casts == instance.casts && first->receives == instance.receives &&
+                            first->transmittance == instance.transmittance &&
                             std::ranges::find(surfaces, instance.mesh) == surfaces.end();
         if (goesOn) {
             surfaces.push_back(instance.mesh);
@@ -147,10 +148,12 @@ void GpuScene::update(const SceneMoment& moment) {
 Caster GpuScene::casterOf(const Instance& instance, const MeshOnDevice& onDevice) const {
     const Mesh& mesh = scene_.meshes[std::size_t(instance.mesh)];
     const Material& material = scene_.materials[std::size_t(mesh.material)];
-    Caster caster{.mesh = &onDevice.mesh,
-                  .worldFromMesh = toPenumbra(instance.worldFromMesh),
-                  .casts = instance.casts,
-                  .receives = instance.receives};
+    Caster caster{
+        .mesh = &onDevice.mesh,
+        .worldFromMesh = toPenumbra(instance.worldFromMesh),
+        .transmittance = {instance.transmittance.r, instance.transmittance.g, instance.transmittance.b},
+        .casts = instance.casts,
+        .receives = instance.receives};
     if (material.alpha == Material::Alpha::mask && material.baseColorTexture >= 0) {
         // Textures live as long as the scene's meshes, whose ids are never used again.
         caster.alphaMask = {.texture = texture(material.baseColorTexture),

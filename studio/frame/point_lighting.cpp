@@ -53,7 +53,8 @@ std::vector<PointLight> PointLighting::measure(const Points& points, const GpuSc
                                                const Light& light, Technique& technique) {
     AreaLight shape = light.shape;
     shape.radianceTexture = scene.radianceTexture(light.texture);
-    VisibilityBuffer visibility(device_, points.width_px(), points.height_px(), shape.radianceTexture != 0);
+    VisibilityBuffer visibility(device_, points.width_px(), points.height_px(),
+                                needsColor(shape, scene.casters()));
     std::uint32_t errorBound = 0;
     if (light.castsShadow) {
         technique.render({.view = points.view(), .light = shape, .casters = scene.casters()}, visibility);

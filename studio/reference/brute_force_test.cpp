@@ -42,11 +42,12 @@ TEST(BruteForce, AgreesWithEmbreeOnEveryRayButThoseAtAnEdge) {
                 directions.push_back(2.0f * vector() - 1.0f - origin);
                 fan.set(i, directions.back(), 0.5f + unit());
             }
-            std::vector<std::uint8_t> blocked(fan.size());
-            embree.trace(origin, fan, blocked);
+            std::vector<glm::vec3> passing(fan.size());
+            embree.trace(origin, fan, passing);
             for (std::size_t i = 0; i < fan.size(); ++i) {
-                blockedCount += blocked[i];
-                if (brute.occluded(origin, directions[i], fan.end[i]) == (blocked[i] != 0)) continue;
+                blockedCount += passing[i] == glm::vec3(0);
+                if (brute.occluded(origin, directions[i], fan.end[i]) == (passing[i] == glm::vec3(0)))
+                    continue;
                 // Legal only where a nudge of a float's rounding changes the answer.
                 ++edgeCount;
                 bool seenOpen = false, seenBlocked = false;

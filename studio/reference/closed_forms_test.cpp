@@ -262,5 +262,56 @@ TEST(ClosedForm, C10_StripsAddUp) {
     expectVisibility(Soup().rect(-far_m, far_m, -far_m, far_m, 1), light, {0, 0, 0}, 0);
 }
 
+/// Blockers that let a share of the light pass, one after the other.
+struct Panes {
+    struct Pane {
+        Soup blocker;
+        glm::vec3 passes;
+    };
+    std::vector<Pane> panes;
+
+    /// Mean visibility of 256 estimates, and what it may be off by.
+    void expect(const AreaLight& light, const glm::vec3& posWorld, const glm::vec3& expected) const {
+        std::vector<TracedCaster> casters;
+        for (const Pane& pane : panes) {
+            casters.push_back(pane.blocker.caster());
+            casters.back().transmittance = pane.passes;
+        }
+        const ReferenceResult result =
+            ReferenceScene(casters).trace(repeated(posWorld), light, nullptr, {.samples = 1024});
+        ASSERT_EQ(result.visibility.channels, 3);
+        glm::dvec3 sum(0);
+        for (int y = 0; y < result.visibility.height_px; ++y) {
+            for (int x = 0; x < result.visibility.width_px; ++x) {
+                for (int c = 0; c < 3; ++c) sum[c] += double(result.visibility.at(x, y, c));
+            }
+        }
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(sum[c] / double(result.visibility.pixelCount()), expected[c], 1e-3);
+    }
+};
+
+TEST(ClosedForm, PanesTakeTheirShare) {
+    const AreaLight light = rectAt({0, 0, 3}, 1, 1);
+    const glm::vec3 s{0.5f, 0.8f, 0}, t{0.25f, 1, 0.75f}, one(1);
+    const Soup half = Soup().rect(-far_m, 0, -far_m, far_m, 1),
+               other = Soup().rect(-far_m, far_m, -far_m, 0, 2);
+    Panes{{{half, s}}}.expect(light, {0, 0, 0}, 0.5f * (one + s));
+    // Two that cross leave a quarter to each, to both, and to neither, in either order.
+    for (const bool isTurned : {false, true}) {
+        Panes crossing{{{half, s}, {other, t}}};
+        if (isTurned) std::ranges::reverse(crossing.panes);
+        crossing.expect(light, {0, 0, 0}, 0.25f * (one + s + t + s * t));
+    }
+    // A slab has two faces and is one pane; of two slabs light passes both.
+    const Soup slab = Soup().box({-far_m, -far_m, 1}, {0, far_m, 1.1f}),
+               above = Soup().box({-far_m, -far_m, 2}, {0, far_m, 2.1f});
+    Panes{{{slab, s}}}.expect(light, {-0.05f, 0, 0}, s + (one - s) * 0.4f);
+    Panes{{{slab, s}, {above, t}}}.expect(light, {-2, 0, 0}, s * t);
+    // Nothing passes what is opaque, before or behind.
+    const Soup opaque = Soup().rect(-far_m, far_m, -far_m, 0, 0.5f);
+    Panes{{{half, s}, {opaque, glm::vec3(0)}}}.expect(light, {0, 0, 0}, 0.25f * (one + s));
+}
+
 }  // namespace
 }  // namespace penumbra::studio

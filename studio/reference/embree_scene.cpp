@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "studio/errors.h"
 #include "studio/reference/embree.h"
@@ -36,8 +38,13 @@ struct OcclusionScene::Surface {
     std::vector<std::uint32_t> indices;
     std::optional<AlphaTexture> holes;
     std::vector<glm::vec2> uvs;
+    glm::vec3 transmittance;
+    std::size_t place;  // among those that are traced
 
-    explicit Surface(const TracedCaster& caster) : indices(caster.indices.begin(), caster.indices.end()) {
+    Surface(const TracedCaster& caster, std::size_t given)
+        : indices(caster.indices.begin(), caster.indices.end()),
+          transmittance(caster.transmittance),
+          place(given) {
         const glm::dmat4 worldFromMesh(caster.worldFromMesh);
         positions.reserve(caster.positions.size() + 1);
         for (const glm::vec3& position : caster.positions)
@@ -53,6 +60,8 @@ struct OcclusionScene::Surface {
         return {positions[corners[0]], positions[corners[1]], positions[corners[2]]};
     }
 
+    bool isPane() const { return transmittance != glm::vec3(0); }
+
     bool isSolidAt(unsigned number, float u, float v) const {
         if (!holes) return true;
         if (uvs.empty()) return holes->blocks({0, 0});
@@ -63,7 +72,7 @@ struct OcclusionScene::Surface {
     /// Called by Embree where something seems to block rays.
     static void filter(const RTCFilterFunctionNArguments* hits) {
         const auto& surface = *static_cast<const Surface*>(hits->geometryUserPtr);
-        const auto& fan = *reinterpret_cast<const FanContext*>(hits->context);
+        auto& fan = *reinterpret_cast<FanContext*>(hits->context);
         const unsigned count = hits->N;
         for (unsigned i = 0; i < count; ++i) {
             if (hits->valid[i] == 0) continue;
@@ -73,13 +82,15 @@ struct OcclusionScene::Surface {
             const glm::dvec3 direction(RTCRayN_dir_x(rays, count, i), RTCRayN_dir_y(rays, count, i),
                                        RTCRayN_dir_z(rays, count, i));
             const unsigned number = RTCHitN_primID(hits->hit, count, i);
-            const double end = fan.ends[RTCRayN_id(rays, count, i)];
+            const unsigned ray = RTCRayN_id(rays, count, i);
+            const double end = fan.ends[ray];
             const TracedTriangle triangle = surface.triangle(number);
             const bool blocks =
                 triangle.isCrossedWithin(origin, direction, end) &&
                 !(fan.lightPlane && fan.lightPlane->contains(triangle)) &&
                 surface.isSolidAt(number, RTCHitN_u(hits->hit, count, i), RTCHitN_v(hits->hit, count, i));
-            if (!blocks) hits->valid[i] = 0;
+            if (blocks && surface.isPane()) fan.crossed[ray].push_back(&surface);
+            if (!blocks || surface.isPane()) hits->valid[i] = 0;
         }
     }
 
@@ -88,6 +99,21 @@ struct OcclusionScene::Surface {
         RayContext embree;             // first: Embree's pointer to it is one to this
         const float* ends;             // of the rays, by their ids
         const LightPlane* lightPlane;  // or null
+        /// The panes that rays pass, by their ids, in any order and some of them several times.
+        std::array<std::vector<const Surface*>, packetSize> crossed;
+
+        glm::vec3 passing(unsigned ray) {
+            std::vector<const Surface*>& panes = crossed[ray];
+            // In the order in which they were given, so that products round alike wherever they lie.
+            std::ranges::sort(panes, {}, &Surface::place);
+            glm::vec3 share(1);
+            const Surface* last = nullptr;
+            for (const Surface* pane : panes) {
+                if (pane != std::exchange(last, pane)) share *= pane->transmittance;
+            }
+            panes.clear();
+            return share;
+        }
     };
 };
 
@@ -159,7 +185,7 @@ OcclusionScene::OcclusionScene(std::span<const TracedCaster> casters) : state_(s
     for (const TracedCaster& caster : casters) {
         if (caster.indices.empty()) continue;
         Surfaces& group = caster.blocks ? state_->blocking : state_->other;
-        group.surfaces.push_back(std::make_unique<Surface>(caster));
+        group.surfaces.push_back(std::make_unique<Surface>(caster, group.surfaces.size()));
     }
     for (Surfaces* group : {&state_->blocking, &state_->other}) group->make(state_->device.get());
     state_->check();
@@ -175,8 +201,12 @@ glm::dvec3 OcclusionScene::onSurface(const glm::dvec3& posWorld, const glm::dvec
     return nearest.point();
 }
 
-void OcclusionScene::trace(const glm::vec3& origin, const RayFan& rays,
-                           std::span<std::uint8_t> blocked) const {
+bool OcclusionScene::hasPanes() const {
+    return std::ranges::any_of(state_->blocking.surfaces,
+                               [](const auto& surface) { return surface->isPane(); });
+}
+
+void OcclusionScene::trace(const glm::vec3& origin, const RayFan& rays, std::span<glm::vec3> passing) const {
     Surface::FanContext context{};
     context.lightPlane = rays.lightPlane ? &*rays.lightPlane : nullptr;
     RTCRay16 packet{};
@@ -197,7 +227,9 @@ void OcclusionScene::trace(const glm::vec3& origin, const RayFan& rays,
         for (std::size_t i = 0; i < packetSize; ++i) active[i] = i < count ? -1 : 0;
         occludeCoherent(active, state_->blocking.scene.get(), context.embree, packet);
         for (std::size_t i = 0; i < count; ++i) {
-            blocked[first + i] = packet.tfar[i] == -std::numeric_limits<float>::infinity();
+            const glm::vec3 share = context.passing(unsigned(i));
+            const bool isBlocked = packet.tfar[i] == -std::numeric_limits<float>::infinity();
+            passing[first + i] = isBlocked ? glm::vec3(0) : share;
         }
     }
 }

@@ -42,9 +42,12 @@ class OcclusionScene {
     /// `normalWorld` (unit); where there is none, `posWorld`. Casters that block nothing count, too.
     glm::dvec3 onSurface(const glm::dvec3& posWorld, const glm::dvec3& normalWorld, double reach_m) const;
 
-    /// Sets `blocked[i]` to 1 if ray i is blocked, else to 0. Faster when rays that follow each other are
-    /// close.
-    void trace(const glm::vec3& origin, const RayFan& rays, std::span<std::uint8_t> blocked) const;
+    /// Whether something that blocks lets a share of the light pass.
+    bool hasPanes() const;
+
+    /// Sets `passing[i]` to the share of light that passes along ray i: none where it is blocked, all where
+    /// nothing is in its way. Faster when rays that follow each other are close.
+    void trace(const glm::vec3& origin, const RayFan& rays, std::span<glm::vec3> passing) const;
 
   private:
     struct Surface;

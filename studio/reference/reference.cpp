@@ -52,6 +52,7 @@ ContentHash hashOf(std::span<const TracedCaster> casters) {
         hasher.addArray(caster.indices);
         hasher.addArray(std::span(&caster.worldFromMesh, 1));
         hasher.add(std::uint32_t(caster.blocks));
+        if (caster.transmittance != glm::vec3(0)) hasher.addArray(std::span(&caster.transmittance, 1));
         hasher.add(std::uint32_t(caster.alphaMask.has_value()));
         if (!caster.alphaMask) continue;
         const TracedAlphaMask& mask = *caster.alphaMask;
@@ -91,9 +92,9 @@ constexpr float rayEnd = 1 - 1e-5f;
 struct Tally {
     glm::dvec3 seen{0}, whole{0};
 
-    void add(const glm::vec3& weight, bool blocked) {
+    void add(const glm::vec3& weight, const glm::vec3& passing) {
         whole += weight;
-        if (!blocked) seen += weight;
+        seen += weight * passing;
     }
     double visibility(int channel) const { return whole[channel] > 0 ? seen[channel] / whole[channel] : 0.0; }
 };
@@ -108,13 +109,14 @@ struct PixelResult {
 class PixelTracer {
   public:
     PixelTracer(const OcclusionScene& scene, const LightSampler& light, const SobolPoints& points,
-                std::uint32_t seed, const ReceiverImage& receivers)
+                std::uint32_t seed, const ReceiverImage& receivers, int channels)
         : scene_(scene),
           light_(light),
           points_(points),
           seed_(seed),
           eyeWorld_(receivers.eyeWorld),
-          reach_(receivers.areFromDepth ? surfaceReach : 0) {
+          reach_(receivers.areFromDepth ? surfaceReach : 0),
+          channels_(channels) {
         fan_.lightPlane = light.plane();
     }
 
@@ -125,8 +127,8 @@ class PixelTracer {
         const glm::vec3 origin = posWorld + rayStart * scale * normalWorld;
         chooseRays(pixel, posWorld, normalWorld, origin);
         sortRays();
-        blocked_.resize(fan_.size());
-        scene_.trace(origin, fan_, blocked_);
+        passing_.resize(fan_.size());
+        scene_.trace(origin, fan_, passing_);
         return tally();
     }
 
@@ -198,15 +200,15 @@ class PixelTracer {
     PixelResult tally() const {
         std::array<Tally, 2> halves;
         for (std::size_t i = 0; i < rays_.size(); ++i) {
-            halves[rays_[i].half].add(rays_[i].weight, blocked_[order_[i]] != 0);
+            halves[rays_[i].half].add(rays_[i].weight, passing_[order_[i]]);
         }
         const Tally both{halves[0].seen + halves[1].seen, halves[0].whole + halves[1].whole};
         PixelResult result{.rays = rays_.size()};
-        for (int c = 0; c < light_.channels(); ++c) {
+        for (int c = 0; c < channels_; ++c) {
             result.visibility[c] = float(both.visibility(c));
             if (light_.isPoint() || halves[0].whole[c] == 0 || halves[1].whole[c] == 0) continue;
             const double error = (halves[0].visibility(c) - halves[1].visibility(c)) / 2;
-            result.squaredError += error * error / light_.channels();
+            result.squaredError += error * error / channels_;
         }
         return result;
     }
@@ -217,10 +219,11 @@ class PixelTracer {
     std::uint32_t seed_;
     glm::vec3 eyeWorld_;
     float reach_;  // in multiples of a position's scale
+    int channels_;
     std::vector<Ray> rays_;
     std::vector<std::uint32_t> order_;  // place of each ray in the fan
     RayFan fan_;
-    std::vector<std::uint8_t> blocked_;
+    std::vector<glm::vec3> passing_;
 };
 
 /// What the tiles contribute to the result's numbers; summed in the tiles' order, so that threads make no
@@ -264,8 +267,8 @@ ReferenceResult ReferenceScene::trace(const ReceiverImage& receivers, const Area
     const LightSampler sampler(light, texture, options.weight);
     const SobolPoints points(sampler.isPoint() ? 1 : (options.samples + 1) / 2);
 
-    ReferenceResult result{.visibility =
-                               Image(receivers.width_px, receivers.height_px, sampler.channels(), 1.0f)};
+    const int channels = std::max(sampler.channels(), state_->scene.hasPanes() ? 3 : 1);
+    ReferenceResult result{.visibility = Image(receivers.width_px, receivers.height_px, channels, 1.0f)};
     const int columns = (receivers.width_px + tileSize_px - 1) / tileSize_px;
     const int rows = (receivers.height_px + tileSize_px - 1) / tileSize_px;
     std::vector<TileSums> tiles(std::size_t(columns) * rows);
@@ -273,7 +276,7 @@ ReferenceResult ReferenceScene::trace(const ReceiverImage& receivers, const Area
     std::size_t tilesDone = 0;
 
     const auto traceTile = [&](std::size_t tile) {
-        PixelTracer tracer(state_->scene, sampler, points, options.seed, receivers);
+        PixelTracer tracer(state_->scene, sampler, points, options.seed, receivers, channels);
         const int left = int(tile) % columns * tileSize_px, top = int(tile) / columns * tileSize_px;
         for (int y = top; y < std::min(top + tileSize_px, receivers.height_px); ++y) {
             for (int x = left; x < std::min(left + tileSize_px, receivers.width_px); ++x) {
@@ -282,8 +285,7 @@ ReferenceResult ReferenceScene::trace(const ReceiverImage& receivers, const Area
                                 &normalWorld = receivers.normalWorld[pixel];
                 if (receivers.valid[pixel] == 0 || !isFinite(posWorld) || !isFinite(normalWorld)) continue;
                 const PixelResult traced = tracer.trace(std::uint32_t(pixel), posWorld, normalWorld);
-                for (int c = 0; c < sampler.channels(); ++c)
-                    result.visibility.at(x, y, c) = traced.visibility[c];
+                for (int c = 0; c < channels; ++c) result.visibility.at(x, y, c) = traced.visibility[c];
                 tiles[tile].squaredError += traced.squaredError;
                 tiles[tile].rays += traced.rays;
                 ++tiles[tile].receivers;

@@ -46,6 +46,8 @@ struct TracedCaster {
         uvs{};  ///< one a position, or empty (then (0, 0)); read with an alpha mask only
     glm::mat4 worldFromMesh{1};
     std::optional<TracedAlphaMask> alphaMask{};
+    /// What it lets through, a channel each, in [0, 1]. However often a ray meets it, it passes it once.
+    glm::vec3 transmittance{0};
     bool blocks = true;  ///< false: blocks no light, but receivers may lie on it
 };
 
@@ -64,7 +66,8 @@ struct ReferenceOptions {
 };
 
 struct ReferenceResult {
-    Image visibility;  ///< in [0, 1]; one channel, or three for a textured light
+    Image visibility;  ///< in [0, 1]; one channel, or three for a textured light, or where casters let light
+                       ///< pass
     /// Standard error of a pixel: root of the mean square over receiving pixels and channels. Each pixel's
     /// samples are two halves, scrambled independently. Their results Va and Vb have the same variance s^2,
     /// and V = (Va + Vb) / 2 has s^2 / 2, which is what the square of (Va - Vb) / 2 is on average.

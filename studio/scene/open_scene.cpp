@@ -128,6 +128,16 @@ std::string_view nameOfUnit(double unit_m) {
     return std::ranges::find(lengthUnits_m(), unit_m, &std::pair<std::string_view, double>::second)->first;
 }
 
+std::span<const std::pair<std::string_view, Glass>> glassNames() {
+    static constexpr std::array<std::pair<std::string_view, Glass>, 3> names = {
+        {{"clear", Glass::clear}, {"tinted", Glass::tinted}, {"blocks", Glass::blocks}}};
+    return names;
+}
+
+std::string_view nameOfGlass(Glass glass) {
+    return std::ranges::find(glassNames(), glass, &std::pair<std::string_view, Glass>::second)->first;
+}
+
 Scene openScene(const std::string& nameOrPath, const OpenOptions& options) {
     const bool builtin = isBuiltin(nameOrPath);
     Scene scene = builtin ? openBuiltin(nameOrPath, options) : openFile(nameOrPath, options);

@@ -40,6 +40,10 @@ struct OpenOptions {
 std::span<const std::pair<std::string_view, double>> lengthUnits_m();
 std::string_view nameOfUnit(double unit_m);
 
+/// What may be said of glass, by name: clear, tinted, blocks.
+std::span<const std::pair<std::string_view, Glass>> glassNames();
+std::string_view nameOfGlass(Glass glass);
+
 /// Opens a built-in scene of this name, or else the .gltf or .glb file (`./NAME` for a file named like a
 /// built-in).
 ///

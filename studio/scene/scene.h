@@ -47,6 +47,7 @@ enum class UpAxis { y, z };
 /// above 0.5.
 enum class Glass {
     clear,   ///< they let it through
+    tinted,  ///< these, and all others that let any light through, take their share of it
     blocks,  ///< they cast shadows as all others do
 };
 
@@ -62,10 +63,14 @@ struct Material {
     bool doubleSided = false;
     bool unlit = false;
     /// Where set, a pane: what is behind it is seen through it, multiplied by this colour, and it casts no
-    /// shadow unless its node's `casts` says so.
+    /// shadow unless its node's `casts` says so, or `transmittance`.
     std::optional<glm::vec3> glass;
-    glm::vec3 emission_nits{0};  ///< linear; seen, but lights nothing
-    int emissionTexture = -1;    ///< multiplies it; index into Scene::textures, at Mesh::uvs
+    /// Where set, it takes its share of the light: what passes, a channel each, linear.
+    std::optional<glm::vec3> transmittance;
+    bool isPane() const { return glass || transmittance; }
+    bool casts() const { return !glass || transmittance; }  ///< where nothing else is said
+    glm::vec3 emission_nits{0};                             ///< linear; seen, but lights nothing
+    int emissionTexture = -1;  ///< multiplies it; index into Scene::textures, at Mesh::uvs
 };
 
 struct MorphTarget {
@@ -144,6 +149,8 @@ struct Instance {
     int node = 0;  ///< index into Scene::nodeNames, always valid
     glm::mat4 worldFromMesh{1};
     bool casts = true, receives = true;
+    glm::vec3 transmittance{
+        0};  ///< where it casts: what it lets through nevertheless (Caster::transmittance)
     /// Where the mesh deforms: its vertices at this moment, in mesh space (a skin's include worldFromMesh =
     /// identity).
     std::vector<glm::vec3> positions, normals;

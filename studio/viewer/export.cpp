@@ -116,7 +116,7 @@ std::string renderCommand(Session& session, const fs::path& folder, PictureSize 
     if (options.scene) line += fmt::format(" --scene {}", *options.scene);
     if (options.up == UpAxis::z) line += " --up z";
     if (options.unit_m != 1) line += fmt::format(" --unit {}", nameOfUnit(options.unit_m));
-    if (options.glass == Glass::blocks) line += " --glass blocks";
+    if (options.glass != Glass::clear) line += fmt::format(" --glass {}", nameOfGlass(options.glass));
     if (options.animations)
         line += options.animations->empty()
                     ? " --animation=-1"

@@ -36,7 +36,7 @@ void Sides::fit(Side& side, const std::vector<Light>& lights) {
     const View& view = frame_.gbuffer().view();
     const auto fits = [&](const VisibilityBuffer& buffer, const Light& light) {
         return buffer.width_px() == view.width_px && buffer.height_px() == view.height_px &&
-               buffer.colored() == (light.texture >= 0);
+               buffer.colored() == frame_.needsColor(light);
     };
     if (std::ranges::equal(side.visibilities, lights, fits)) return;
     side.visibilities.clear();

@@ -96,6 +96,8 @@ CasterCopies::CasterCopies(std::span<const Caster> casters) {
         copy.indices.assign(indices.begin(), indices.end());
         copy.traced.worldFromMesh = fromPenumbra(caster.worldFromMesh);
         copy.traced.blocks = caster.casts;
+        const Vec3& passes = caster.transmittance;
+        copy.traced.transmittance = {passes.x, passes.y, passes.z};
         if (caster.alphaMask.texture == 0) continue;
         copy.uvs.assign(uvs.begin(), uvs.end());
         copy.traced.alphaMask = readMask(caster.alphaMask, copy.maskRgba);
@@ -135,15 +137,16 @@ std::optional<RadianceTexture> readRadianceTexture(GLuint texture) {
 }
 
 void writeVisibility(const Image& image, const VisibilityBuffer& out) {
-    Image flipped = image;
-    const std::size_t row = std::size_t(image.width_px) * std::size_t(image.channels);
-    for (std::size_t y = 0; y < std::size_t(image.height_px); ++y) {
-        std::copy_n(&image.values[y * row], row,
-                    &flipped.values[(std::size_t(image.height_px) - 1 - y) * row]);
+    Image flipped(image.width_px, image.height_px, out.colored() ? 3 : image.channels);
+    for (int y = 0; y < image.height_px; ++y) {
+        for (int x = 0; x < image.width_px; ++x) {
+            for (int c = 0; c < flipped.channels; ++c)
+                flipped.at(x, image.height_px - 1 - y, c) = image.at(x, y, std::min(c, image.channels - 1));
+        }
     }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage2D(out.texture(), 0, 0, 0, image.width_px, image.height_px,
-                        image.channels == 3 ? GL_RGB : GL_RED, GL_FLOAT, flipped.values.data());
+                        flipped.channels == 3 ? GL_RGB : GL_RED, GL_FLOAT, flipped.values.data());
 }
 
 }  // namespace penumbra::studio

@@ -17,6 +17,7 @@ class ReferenceTechnique final : public Technique {
     void render(const ShadowInputs& inputs, VisibilityBuffer& out) override;
     bool answersAtPoints() const override { return true; }
     bool answersTubes() const override { return true; }
+    bool answersPanes() const override { return true; }
     /// "error bound": of each pixel, what it is within in 999 of 1,000.
     void inspect(InspectionVisitor& visitor) const override;
     Statistics statistics() const override;

@@ -343,7 +343,7 @@ void main() {
             node = walk.node;
             TreeNode visited = loadNode(node);
             bool isHit = mayBlockTile(shaft, sides, bounds, visited);
-            isSpecial = (caster & EXACT_MASKED) != 0u || mayReachLight(bounds, visited.boxMin, visited.boxMax);
+            isSpecial = (caster & (EXACT_MASKED | EXACT_PANE)) != 0u || mayReachLight(bounds, visited.boxMin, visited.boxMax);
             isOfLarge = isLarge(bounds, visited);
             lists = isHit && visited.leaf == EXACT_INNER && caster != EXACT_INNER && isSmall(bounds, size, visited);
             if (isHit && hasTriangles(visited)) {

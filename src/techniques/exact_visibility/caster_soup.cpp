@@ -102,11 +102,16 @@ bool CasterSoup::Entry::isStale(const Caster& caster) const {
 }
 
 /// Only a host can tell whether texels are as they were.
-bool CasterSoup::Entry::mayHaveOtherHoles(const Caster& caster) const {
+bool CasterSoup::Entry::mayLetOtherLightThrough(const Caster& caster) const {
+    if (transmittance != caster.transmittance) return true;
     const AlphaMask& now = caster.alphaMask;
     if (now.texture == 0) return holes.texture != 0;
     return now.revision == 0 || now.revision != holes.revision || now.texture != holes.texture ||
            now.factor != holes.factor || now.cutoff != holes.cutoff;
+}
+
+std::uint32_t CasterSoup::Entry::flags() const {
+    return (mask >= 0 ? EXACT_MASKED : 0) | (pane >= 0 ? EXACT_PANE : 0);
 }
 
 void CasterSoup::noteChanged(const Entry& entry) {
@@ -122,6 +127,7 @@ void CasterSoup::update(std::span<const Caster> casters) {
 
     // What is the same as before stays; masks are named by their place in the list of masks.
     masks_.clear();
+    transmittances_.clear();
     changed_.clear();
     std::size_t count = 0;
     for (const Caster& caster : casters) {
@@ -131,17 +137,24 @@ void CasterSoup::update(std::span<const Caster> casters) {
             mask = int(masks_.size());
             masks_.push_back(caster.alphaMask);
         }
+        int pane = -1;
+        if (isPane(caster)) {
+            pane = int(transmittances_.size());
+            transmittances_.emplace_back(toGlm(caster.transmittance), 0);
+        }
         if (count == entries_.size()) entries_.emplace_back();
         Entry& entry = entries_[count++];
         const bool stale = entry.isStale(caster);
-        const bool changes = stale || moved || entry.mayHaveOtherHoles(caster);
+        const bool changes = stale || moved || entry.mayLetOtherLightThrough(caster);
         if (changes) noteChanged(entry);
         if (stale) entry.take(caster);
         if (stale || moved) entry.place(origin, posScene_);
         entry.holes = caster.alphaMask;
+        entry.transmittance = caster.transmittance;
         if (changes) noteChanged(entry);
-        entry.isSent = entry.isSent && !stale && !moved && entry.mask == mask;
+        entry.isSent = entry.isSent && !stale && !moved && entry.mask == mask && entry.pane == pane;
         entry.mask = mask;
+        entry.pane = pane;
     }
     for (std::size_t i = count; i < entries_.size(); ++i) noteChanged(entries_[i]);
     entries_.resize(count);
@@ -151,7 +164,7 @@ void CasterSoup::update(std::span<const Caster> casters) {
 
 void CasterSoup::send() {
     // Places: the top tree's nodes first, then each caster's.
-    std::size_t node = entries_.empty() ? 0 : 2 * entries_.size() - 1, triangle = 0, masked = 0;
+    std::size_t node = entries_.empty() ? 0 : 2 * entries_.size() - 1, triangle = 0, masked = 0, panes = 0;
     bool changed = false;
     for (Entry& entry : entries_) {
         const std::size_t triangles = entry.corners.size() / 3;
@@ -164,11 +177,13 @@ void CasterSoup::send() {
         node += entry.shape.nodes.size();
         triangle += triangles;
         if (entry.mask >= 0) masked += triangles;
+        if (entry.pane >= 0) panes += triangles;
     }
     changed = changed || node != nodeCount_;
     nodeCount_ = node;
     triangleCount_ = triangle;
     maskedCount_ = masked;
+    paneTriangleCount_ = panes;
     // All three, whichever has lost what it held.
     const bool nodesLost = nodes_.reserve(2 * node), trianglesLost = triangles_.reserve(3 * triangle),
                maskedLost = masked_.reserve(2 * masked);
@@ -190,8 +205,7 @@ void CasterSoup::send(Entry& entry) {
         texels.push_back(
             texel(entry.boxes[i].min, last ? EXACT_END : std::uint32_t(entry.firstNode) + node.skip));
         const std::uint32_t leaf = (std::uint32_t(entry.firstTriangle) + node.first) |
-                                   (node.count - 1) << EXACT_COUNT_SHIFT |
-                                   (entry.mask >= 0 ? EXACT_MASKED : 0);
+                                   (node.count - 1) << EXACT_COUNT_SHIFT | entry.flags();
         texels.push_back(texel(entry.boxes[i].max, node.count == 0 ? EXACT_INNER : leaf));
     }
     nodes_.write(texels, 2 * entry.firstNode);
@@ -199,6 +213,9 @@ void CasterSoup::send(Entry& entry) {
     // Only of triangles with holes it is asked where their texture coordinates are.
     for (std::size_t i = 0; i < entry.corners.size() && entry.mask >= 0; ++i)
         entry.corners[i].w = std::uint32_t(entry.firstMasked + i / 3);
+    // Of those of panes, at their second corner, which pane they are of.
+    for (std::size_t i = 1; i < entry.corners.size() && entry.pane >= 0; i += 3)
+        entry.corners[i].w = std::uint32_t(entry.pane);
     triangles_.write(entry.corners, 3 * entry.firstTriangle);
 
     if (entry.mask >= 0) {
@@ -233,7 +250,7 @@ void CasterSoup::sendTop() {
         std::uint32_t leaf = EXACT_INNER;
         if (node.count > 0) {
             const Entry& entry = entries_[shape.order[node.first]];
-            leaf = EXACT_SUBTREE | (entry.mask >= 0 ? EXACT_MASKED : 0) | std::uint32_t(entry.firstNode);
+            leaf = EXACT_SUBTREE | entry.flags() | std::uint32_t(entry.firstNode);
         }
         texels.push_back(texel(boxes[i].max, leaf));
     }

@@ -33,8 +33,8 @@ class CasterSoup {
         return revision == revision_ ||
                (revision + 1 == revision_ && changed_.size() <= std::size_t(2 * EXACT_MOST_CHANGED));
     }
-    /// Around casters that have come, gone, moved, changed their form or may have other holes since the
-    /// revision before: where they were and where they are, each a low and a high corner (scene axes,
+    /// Around casters that have come, gone, moved, changed their form or may let other light through since
+    /// the revision before: where they were and where they are, each a low and a high corner (scene axes,
     /// metres).
     std::span<const glm::vec4> changedBoxes() const { return changed_; }
 
@@ -47,6 +47,7 @@ class CasterSoup {
     std::size_t nodeCount() const { return nodeCount_; }
     std::size_t triangleCount() const { return triangleCount_; }
     std::size_t maskedCount() const { return maskedCount_; }
+    std::size_t paneTriangleCount() const { return paneTriangleCount_; }
     /// Triangles of all casters that come nearer than `distance` to a plane, or cross it (scene axes,
     /// metres).
     std::size_t countNear(const glm::vec3& planePoint, const glm::vec3& normal, float distance) const;
@@ -57,6 +58,8 @@ class CasterSoup {
     }
     /// Masks in the order in which triangles name them.
     const std::vector<AlphaMask>& masks() const { return masks_; }
+    /// What panes let through (xyz), in the order in which triangles name them.
+    const std::vector<glm::vec4>& transmittances() const { return transmittances_; }
 
   private:
     /// A caster, with copies of what it is made of to see whether it is still the same.
@@ -68,6 +71,8 @@ class CasterSoup {
         Mat4 worldFromMesh;
         int mask = -1;  ///< which of masks_, or none
         AlphaMask holes;
+        int pane = -1;  ///< which of transmittances_, or none
+        Vec3 transmittance;
 
         TreeShape shape;
         std::vector<TreeBox> boxes;       ///< one a node
@@ -76,7 +81,8 @@ class CasterSoup {
         std::size_t firstNode = 0, firstTriangle = 0, firstMasked = 0;
 
         bool isStale(const Caster& caster) const;
-        bool mayHaveOtherHoles(const Caster& caster) const;
+        bool mayLetOtherLightThrough(const Caster& caster) const;
+        std::uint32_t flags() const;  ///< of its nodes
         void take(const Caster& caster);
         /// `posScene` is room for the positions.
         void place(const glm::dvec3& origin, std::vector<glm::vec3>& posScene);
@@ -89,6 +95,7 @@ class CasterSoup {
 
     std::vector<Entry> entries_;
     std::vector<AlphaMask> masks_;
+    std::vector<glm::vec4> transmittances_;
     std::vector<glm::vec4> changed_;
     std::uint64_t revision_ = 1;
     glm::dvec3 originWorld_{0};
@@ -99,6 +106,7 @@ class CasterSoup {
     std::size_t nodeCount_ = 0;
     std::size_t triangleCount_ = 0;
     std::size_t maskedCount_ = 0;
+    std::size_t paneTriangleCount_ = 0;
 };
 
 }  // namespace penumbra::exact_visibility

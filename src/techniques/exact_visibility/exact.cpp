@@ -26,6 +26,20 @@ constexpr const char* resolveShader = "src/techniques/exact_visibility/resolve.c
 constexpr int softwareRoundWork = 40000;
 constexpr int hardwareRoundWork = 1000000;
 
+// Of the work of a receiver, as resolve.comp.glsl counts it.
+constexpr double perNode = 2, perTriangle = 8, perRow = 32, perRound = 1000;
+constexpr double mostRounds = 1e6;
+
+int mostSamplesOf(std::span<const LightLattice> lattices) {
+    int most = 0;
+    for (const LightLattice& lattice : lattices) {
+        int count = 0;
+        for (const unsigned row : lattice.validRows) count += std::popcount(row);
+        most = std::max(most, count);
+    }
+    return most;
+}
+
 void bindMaskGroup(gl::Pass& pass, std::span<const unsigned> textures, int group) {
     if (!pass.has("alphaTextures")) return;
     for (std::size_t i = 0; i < EXACT_GROUP_TEXTURES; ++i) {
@@ -54,6 +68,7 @@ ExactVisibility::ExactVisibility(Device& device)
       receivers_(device_.shaders),
       tiles_(device_.shaders),
       masks_("exact/masks"),
+      panes_("exact/panes"),
       changedBoxes_("exact/changed boxes"),
       light_("exact/light") {}
 
@@ -89,6 +104,7 @@ const gl::Program& ExactVisibility::resolveFor(const ResolveKind& kind) {
     std::vector<std::string> defines{"ROWS " + std::to_string(kind.rows)};
     if (kind.hasHoles) defines.emplace_back("WITH_HOLES");
     if (kind.isUneven) defines.emplace_back("WITH_WEIGHTS");
+    if (kind.paneSteps > 0) defines.emplace_back("PANE_STEPS " + std::to_string(kind.paneSteps));
     return resolve_.emplace(kind, gl::Program(device_.shaders, {resolveShader}, std::move(defines)))
         .first->second;
 }
@@ -107,20 +123,29 @@ std::size_t ExactVisibility::countSpecial(const glm::vec3& eye, const ExactLight
 /// How many rounds a turn takes at most: every node visited, every triangle projected, every sample looked
 /// at, as resolve.comp.glsl counts them.
 int ExactVisibility::roundsFor(std::span<const LightLattice> lattices, std::size_t special) const {
-    constexpr double perNode = 2, perTriangle = 8, perRow = 32, perRound = 1000;
-    double rows = 0, samples = 0;
-    for (const LightLattice& lattice : lattices) {
-        double count = 0;
-        for (const unsigned row : lattice.validRows) count += std::popcount(row);
-        samples = std::max(samples, count);
-        rows = std::max(rows, double(lattice.validRows.size()));
-    }
+    double rows = 0;
+    for (const LightLattice& lattice : lattices) rows = std::max(rows, double(lattice.validRows.size()));
     const double work = double(soup_.nodeCount()) * perNode + double(soup_.triangleCount()) * perTriangle +
-                        double(special) * (rows + samples) + perRow * rows;
-    return int(std::min(1 + std::ceil(work / (roundWork_ - perRound)), 1e6));
+                        double(special) * (rows + double(mostSamplesOf(lattices))) + perRow * rows;
+    return int(std::min(1 + std::ceil(work / (roundWork_ - perRound)), mostRounds));
 }
 
-/// Writes down what each mask asks of its texture, and which that is.
+/// The same for a step in which samples are taken through panes.
+int ExactVisibility::roundsForPanes(std::size_t rows) const {
+    constexpr double perPaneTriangle = 4 + 2 * EXACT_PANE_SAMPLES;
+    const double work = double(soup_.nodeCount()) * perNode +
+                        double(soup_.paneTriangleCount()) * (perTriangle + perPaneTriangle) +
+                        perRow * double(rows) + 10 * EXACT_PANE_SAMPLES;
+    return int(std::min(1 + std::ceil(work / (roundWork_ - perRound)), mostRounds));
+}
+
+/// How often it takes to take all samples of a lattice through panes, if there are any.
+int ExactVisibility::paneStepsFor(std::span<const LightLattice> lattices) const {
+    if (soup_.paneTriangleCount() == 0) return 0;
+    return (mostSamplesOf(lattices) + EXACT_PANE_SAMPLES - 1) / EXACT_PANE_SAMPLES;
+}
+
+/// Writes down what each mask asks of its texture, and which that is, and what panes let through.
 void ExactVisibility::sendMasks() {
     maskTextures_.clear();
     std::vector<glm::vec4> masks;
@@ -132,6 +157,7 @@ void ExactVisibility::sendMasks() {
                            which / EXACT_GROUP_TEXTURES);
     }
     masks_.write(masks);
+    panes_.write(soup_.transmittances());
 }
 
 /// Where the answer for a frame's light is kept. Beyond a quarter of a gigabyte lights share one, which is
@@ -144,9 +170,10 @@ LightAnswer& ExactVisibility::answerFor(std::size_t place, const View& view) {
     return answers_[std::min(place, last)];
 }
 
-void ExactVisibility::describeKey(const Stage& stage, const AreaLight& light) {
+void ExactVisibility::describeKey(const Stage& stage, const FrameLight& asked) {
     key_.clear();
-    appendLight(key_, light);
+    appendLight(key_, asked.light);
+    appendBytes(key_, asked.out->colored());
     appendBytes(key_, stage.originWorld);
     appendBytes(key_, stage.hasCasters);
     appendBytes(key_, samples_);
@@ -155,8 +182,8 @@ void ExactVisibility::describeKey(const Stage& stage, const AreaLight& light) {
 
 /// Whether tiles may keep their answers: the camera, the light and the options are those of the last frame,
 /// and casters that are not are known.
-bool ExactVisibility::canKeep(const Stage& stage, const AreaLight& light, const LightAnswer& answer) {
-    describeKey(stage, light);
+bool ExactVisibility::canKeep(const Stage& stage, const FrameLight& asked, const LightAnswer& answer) {
+    describeKey(stage, asked);
     return isSameView_ && key_ == answer.key &&
            (!stage.hasCasters || soup_.tellsChangesSince(answer.casterRevision));
 }
@@ -200,7 +227,7 @@ void ExactVisibility::prepare(const Stage& stage, const FrameInputs& frame) {
     bool keeps = false;
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
         if (frame.lights[i].castsShadow != stage.hasCasters) continue;
-        keeps = keeps || canKeep(stage, frame.lights[i].light, answerFor(i, stage.view));
+        keeps = keeps || canKeep(stage, frame.lights[i], answerFor(i, stage.view));
     }
     const auto pass = frameTimers_.pass("exact/receivers");
     if (keeps) {
@@ -213,7 +240,7 @@ void ExactVisibility::prepare(const Stage& stage, const FrameInputs& frame) {
 void ExactVisibility::answer(const Stage& stage, const FrameLight& asked, std::size_t place) {
     const AreaLight& light = asked.light;
     LightAnswer& answer = answerFor(place, stage.view);
-    const bool keeps = canKeep(stage, light, answer);
+    const bool keeps = canKeep(stage, asked, answer);
     answer.key.clear();  // until it is there
     answer.fit(asked.out->width_px(), asked.out->height_px(),
                asked.out->colored() ? gl::Format::rgba16f : gl::Format::r32f);
@@ -278,21 +305,30 @@ void ExactVisibility::resolve(const Stage& stage, const AreaLight& light, const 
     const std::vector<LightLattice>& lattices = latticesFor(light);
     std::size_t rows = 0;
     for (const LightLattice& lattice : lattices) rows = std::max(rows, lattice.validRows.size());
-    // A turn for each group of alpha textures, for each lattice, in each of a cone's windows.
+    // A turn for each group of alpha textures, for each lattice, in each of a cone's windows, for all that
+    // lets no light through and then for some samples after the others.
     const int groups =
         std::max(int(maskTextures_.size() + EXACT_GROUP_TEXTURES - 1) / EXACT_GROUP_TEXTURES, 1);
     const bool isCone = light.shape == LightShape::sphere || light.shape == LightShape::distant;
-    const int turns = groups * int(lattices.size()) * (mayFillHalfTheSky(light) ? 6 : 1);
-    const int turnRounds = roundsFor(lattices, countSpecial(stage.frame.eye, described, light.shape));
+    const int windows = int(lattices.size()) * (mayFillHalfTheSky(light) ? 6 : 1);
+    const int paneSteps = paneStepsFor(lattices);
+    int turnRounds = roundsFor(lattices, countSpecial(stage.frame.eye, described, light.shape));
+    int rounds = windows * turnRounds;
+    if (paneSteps > 0) rounds += windows * paneSteps * roundsForPanes(rows);
+    if (groups > 1) {  // all turns take the same time
+        turnRounds = std::max(turnRounds, paneSteps > 0 ? roundsForPanes(rows) : 0);
+        rounds = windows * (1 + paneSteps) * groups * turnRounds;
+    }
     const bool isUneven = isCone || weight_ != 0 || light.radianceTexture != 0;
     const auto pixels =
         std::size_t(answer_->errorBound.width_px()) * std::size_t(answer_->errorBound.height_px());
-    states_.reserve(pixels * (EXACT_STATE_WORDS + rows) * sizeof(std::uint32_t), "exact/states");
-    rounds_.reserve(std::size_t(turns * turnRounds + 1) * 3 * sizeof(std::uint32_t), "exact/rounds");
+    const std::size_t stateWords = EXACT_STATE_WORDS + rows + (paneSteps > 0 ? EXACT_PANE_WORDS : 0);
+    states_.reserve(pixels * stateWords * sizeof(std::uint32_t), "exact/states");
+    rounds_.reserve(std::size_t(rounds + 1) * 3 * sizeof(std::uint32_t), "exact/rounds");
 
     const auto timed = timers_.pass("exact/resolve");
     rounds_.clear();
-    gl::Pass pass(resolveFor({int(rows), soup_.maskedCount() > 0, isUneven}));
+    gl::Pass pass(resolveFor({int(rows), soup_.maskedCount() > 0, isUneven, paneSteps}));
     pass.inOrder()
         .bind(view_)
         .bind("FrameBlock", frame_)
@@ -308,14 +344,15 @@ void ExactVisibility::resolve(const Stage& stage, const AreaLight& light, const 
         .bind("visibility", visibility)
         .bind("errorBound", answer_->errorBound);
     if (pass.has("Masks")) pass.bind("Masks", masks_);
+    if (pass.has("Panes")) pass.bind("Panes", panes_);
     bindMaskGroup(pass, maskTextures_, 0);
     ExactRound round{.number = 0, .work = roundWork_, .turnRounds = turnRounds, .groups = groups};
     pass.constants(round).dispatchIndirect(busy_);
     const bool looks = stage.view.isOfPoints && device_.isSoftware;
     for (int turn = 0;;) {
         ++round.number;
-        if (looks) round.number = askedRound(round.number, turns * turnRounds);
-        if (round.number >= turns * turnRounds) break;
+        if (looks) round.number = askedRound(round.number, rounds);
+        if (round.number >= rounds) break;
         if (groups > 1 && std::exchange(turn, round.number / turnRounds) != round.number / turnRounds)
             bindMaskGroup(pass, maskTextures_, turn % groups);
         // Without work groups where nobody asked for the round.

@@ -46,6 +46,7 @@ class ExactVisibility final : public Technique {
     void renderLights(const FrameInputs& frame) override;
     bool answersAtPoints() const override { return true; }
     bool answersTubes() const override { return true; }
+    bool answersPanes() const override { return true; }
     void inspect(InspectionVisitor& visitor) const override;
     Statistics statistics() const override;
 
@@ -55,6 +56,7 @@ class ExactVisibility final : public Technique {
         int rows;       ///< of the lattice
         bool hasHoles;  ///< casters have alpha masks
         bool isUneven;  ///< samples do not count alike
+        int paneSteps;  ///< in which samples are taken through panes
         auto operator<=>(const ResolveKind&) const = default;
     };
 
@@ -76,11 +78,13 @@ class ExactVisibility final : public Technique {
 
     const gl::Program& resolveFor(const ResolveKind& kind);
     LightAnswer& answerFor(std::size_t place, const View& view);
-    void describeKey(const Stage& stage, const AreaLight& light);
-    bool canKeep(const Stage& stage, const AreaLight& light, const LightAnswer& answer);
+    void describeKey(const Stage& stage, const FrameLight& asked);
+    bool canKeep(const Stage& stage, const FrameLight& asked, const LightAnswer& answer);
     std::size_t countSpecial(const glm::vec3& eye, const ExactLight& light, LightShape shape) const;
     int askedRound(int next, int count) const;
     int roundsFor(std::span<const LightLattice> lattices, std::size_t special) const;
+    int roundsForPanes(std::size_t rows) const;
+    int paneStepsFor(std::span<const LightLattice> lattices) const;
     const std::vector<LightLattice>& latticesFor(const AreaLight& light);
     void sendMasks();
 
@@ -102,7 +106,7 @@ class ExactVisibility final : public Technique {
     gl::ConstantBuffer<ExactFrame> frame_;
     ReceiverWatch receivers_;
     ReceiverTiles tiles_;
-    gl::StorageArray<glm::vec4> masks_;
+    gl::StorageArray<glm::vec4> masks_, panes_;
     std::vector<unsigned> maskTextures_;  ///< each once
     gl::StorageArray<glm::vec4> changedBoxes_;
 

@@ -18,7 +18,8 @@ namespace penumbra::exact_visibility {
 #define EXACT_SUBTREE 0x80000000u  // leaf: a caster's subtree begins at the node in the lowest bits
 #define EXACT_MASKED 0x40000000u   // leaf: the caster or its triangles have holes
 #define EXACT_COUNT_SHIFT 28       // leaf: two bits from here on are the number of its triangles, less one;
-#define EXACT_FIRST 0x0fffffffu    // these, its first triangle
+#define EXACT_PANE 0x08000000u     // leaf: the caster or its triangles let light through
+#define EXACT_FIRST 0x07ffffffu    // leaf: these, its first triangle
 #define EXACT_LEAF_TRIANGLES 4     // at most
 
 #define EXACT_MAX_ROWS 24     // of a lattice, and bits in a row
@@ -32,6 +33,9 @@ namespace penumbra::exact_visibility {
 #define EXACT_GROUPS_ACROSS 32768u  // in the x direction of a dispatch
 
 #define EXACT_STATE_WORDS 12  // of a receiver whose work is not done, before the rows
+
+#define EXACT_PANE_SAMPLES 16                          // taken through panes at a time
+#define EXACT_PANE_WORDS (5 + 2 * EXACT_PANE_SAMPLES)  // of a receiver's state, behind the rows
 
 /// What all lights of a frame share. In scene space: the world's axes, moved.
 SHARED_STRUCT ExactFrame {

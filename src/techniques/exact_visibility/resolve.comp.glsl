@@ -2,8 +2,9 @@
 #version 450
 #extension GL_ARB_shader_group_vote : enable
 // For each receiver of a busy tile, the samples of the light that no candidate of its tile hides. Defines: ROWS, the rows
-// of a lattice; WITH_HOLES, where casters have alpha masks, and WITH_WEIGHTS, where samples do not count alike: llvmpipe
-// runs both sides of a branch, and every loop once.
+// of a lattice; WITH_HOLES, where casters have alpha masks; WITH_WEIGHTS, where samples do not count alike; PANE_STEPS, where
+// casters let light through, how often samples are taken until there are no more. (llvmpipe runs both sides of a branch, and
+// every loop once.)
 layout(local_size_x = 8, local_size_y = 8) in;
 #ifndef ROWS
 #define ROWS 11
@@ -31,10 +32,17 @@ uniform sampler2D radiance;
 
 // Work is done in rounds, each of a bounded number of iterations: those who are not done leave what they know here and
 // ask for another round. Rounds come in turns, one after the other for each group of alpha textures: as many as can be
-// bound at a time. A part of the work is one window, one lattice and one group.
+// bound at a time. A part of the work is one window, one lattice, one step and one group; the first step is for all that
+// lets no light through, the others take some of the samples each through the panes.
 layout(std430) buffer States { uint states[]; };
 layout(std430) buffer Rounds { uint roundGroups[]; };  // three numbers a round, for indirect dispatch
+#ifdef PANE_STEPS
+const int stepsOfWindow = 1 + PANE_STEPS;
+#define STATE_WORDS (EXACT_STATE_WORDS + ROWS + EXACT_PANE_WORDS)
+#else
+const int stepsOfWindow = 1;
 #define STATE_WORDS (EXACT_STATE_WORDS + ROWS)
+#endif
 int work = 0;
 
 // Receivers that run together look at the same triangle at a time.
@@ -79,13 +87,37 @@ bool isAllHidden() {
     return all_ == 0xffffffffu;
 }
 
+// Where the way to a sample meets a triangle.
+struct Crossing {
+    vec3 normal;
+    float height;
+    float nearest, farthest;  // shares of the way: rounding must not carry a point beyond its triangle
+    vec3 acrossA, acrossB, acrossC;
+};
+
+Crossing crossingOf(Blocker t) {
+    vec3 normal = cross(t.b - t.a, t.c - t.a);
+    return Crossing(normal, dot(normal, t.a), min(t.uvwA.z, min(t.uvwB.z, t.uvwC.z)),
+                    max(t.uvwA.z, max(t.uvwB.z, t.uvwC.z)), cross(t.b, t.c), cross(t.c, t.a), cross(t.a, t.b));
+}
+
+// Whether a triangle is in the way of a sample that it covers, and has no hole there.
+bool blocksSample(Crossing t, SeenLight seen, Patch patch_, vec2 uv, uint triangle, bool hasHoles) {
+    vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
+    float w = clamp(t.height / dot(t.normal, direction), t.nearest, t.farthest);
+    bool blocks = w < endOfRay(seen, direction);
+#ifdef WITH_HOLES
+    if (hasHoles) {
+        vec3 share = vec3(dot(t.acrossA, direction), dot(t.acrossB, direction), dot(t.acrossC, direction));
+        blocks = blocks && isSolid(triangle, share / (share.x + share.y + share.z));
+    }
+#endif
+    return blocks;
+}
+
 // The same for a triangle that has holes, or may stand at the light: each sample that it seems to hide is looked at.
 void hideSamples(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint triangle, bool hasHoles, bool counts) {
-    vec3 normal = cross(t.b - t.a, t.c - t.a);
-    float height = dot(normal, t.a);
-    vec3 acrossA = cross(t.b, t.c), acrossB = cross(t.c, t.a), acrossC = cross(t.a, t.b);
-    // Rounding must not carry a point beyond its triangle.
-    float nearest = min(t.uvwA.z, min(t.uvwB.z, t.uvwC.z)), farthest = max(t.uvwA.z, max(t.uvwB.z, t.uvwC.z));
+    Crossing crossing = crossingOf(t);
     for (int j = 0; j < ROWS && anyOfUs(counts); ++j) {
         uint bits = counts ? spot[j] & ~hidden[j] : 0u;
         uint stays = 0u;
@@ -93,18 +125,8 @@ void hideSamples(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint tria
         while (anyOfUs(bits != 0u)) {
             ++work;
             int i = max(findLSB(bits), 0);
-            vec2 uv = uvOf(vec2(i, j), offset);
-            vec3 direction = patch_.center + uv.x * patch_.across + uv.y * patch_.along;
-            float w = clamp(height / dot(normal, direction), nearest, farthest);
-            bool blocks = w < endOfRay(seen, direction);
-#ifdef WITH_HOLES
-            if (hasHoles) {
-                vec3 share = vec3(dot(acrossA, direction), dot(acrossB, direction), dot(acrossC, direction));
-                blocks = blocks && isSolid(triangle, share / (share.x + share.y + share.z));
-            }
-#endif
             uint bit = bits & (0u - bits);
-            stays |= blocks ? bit : 0u;
+            stays |= blocksSample(crossing, seen, patch_, uvOf(vec2(i, j), offset), triangle, hasHoles) ? bit : 0u;
             bits &= ~bit;
         }
         hidden[j] |= stays;
@@ -147,6 +169,10 @@ void beginWith(SeenLight seen, Patch patch_, vec3 normal, int lattice, vec2 offs
     }
 }
 
+#ifdef PANE_STEPS
+#include "src/techniques/exact_visibility/panes.glsl"
+#endif
+
 void save(uint base, Progress progress, Sums sums) {
     states[base] = uint(progress.part) + 1u;
     states[base + 1u] = progress.next;
@@ -159,6 +185,9 @@ void save(uint base, Progress progress, Sums sums) {
     states[base + 10u] = floatBitsToUint(sums.borders);
     states[base + 11u] = floatBitsToUint(sums.samples);
     for (int j = 0; j < ROWS; ++j) states[base + uint(EXACT_STATE_WORDS + j)] = hidden[j];
+#ifdef PANE_STEPS
+    savePanes(base + uint(EXACT_STATE_WORDS + ROWS));
+#endif
 }
 
 void load(uint base, out Progress progress, out Sums sums) {
@@ -171,10 +200,16 @@ void load(uint base, out Progress progress, out Sums sums) {
     }
     sums.borders = uintBitsToFloat(states[base + 10u]);
     sums.samples = uintBitsToFloat(states[base + 11u]);
+#ifdef PANE_STEPS
+    loadPanes(base + uint(EXACT_STATE_WORDS + ROWS));
+#endif
 }
 
 // In which of the group's turns a triangle is looked at: one with holes when its texture is bound, all others first.
-bool belongsTo(int group, uint leaf) {
+bool belongsTo(int group, bool isOfPanes, uint leaf) {
+#ifdef PANE_STEPS
+    if (((leaf & EXACT_PANE) != 0u) != isOfPanes) return false;
+#endif
 #ifdef WITH_HOLES
     return round_.groups == 1 || ((leaf & EXACT_MASKED) != 0u ? groupOf(firstTriangle(leaf)) : 0) == group;
 #else
@@ -214,6 +249,7 @@ struct Look {
     TileList list;
     uint first, last;  // the tile's part of the lists
     int group;
+    bool isOfPanes;
 };
 
 // The next node on the way: one of the tile's list, or below such a one, or beyond the list; or none, where a leaf has
@@ -237,7 +273,7 @@ void visitNode(Look look, bool isPlainPart, inout Progress progress, inout Leaf 
     }
     if (isListed) progress.walk.node = isHit && node.leaf == EXACT_INNER ? at + 1u : node.skip;
     else progress.walk = advance(progress.walk, node, isHit);
-    if (isHit && hasTriangles(node) && (isPlainPart || belongsTo(look.group, node.leaf))) {
+    if (isHit && hasTriangles(node) && (isPlainPart || belongsTo(look.group, look.isOfPanes, node.leaf))) {
         uint triangle = firstTriangle(node.leaf);
         leaf = Leaf(triangle, triangle + triangleCount(node.leaf), (node.leaf & EXACT_MASKED) != 0u);
     }
@@ -253,6 +289,9 @@ void main() {
     uint base = uint(min(pixel.y, view.size_px.y - 1) * view.size_px.x + min(pixel.x, view.size_px.x - 1)) * STATE_WORDS;
     TileList list = tileLists[tileIndex];
 
+#ifdef PANE_STEPS
+    beginPanes();
+#endif
     Progress progress = startOf(0, 0u);
     Sums sums = Sums(vec3(0.0), vec3(0.0), 0.0, 0.0);
     bool resumes = round_.number > 0;
@@ -271,25 +310,32 @@ void main() {
     int patches = receives ? seen.patches : 0;
 
     bool isPaused = false;
-    for (; progress.part < 6 * light.latticeCount * round_.groups; ++progress.part) {
-        int window = progress.part / round_.groups, group = progress.part - window * round_.groups;
+    for (; progress.part < 6 * light.latticeCount * stepsOfWindow * round_.groups; ++progress.part) {
+        int turn = progress.part / round_.groups, group = progress.part - turn * round_.groups;
+        int window = turn / stepsOfWindow, step_ = turn - window * stepsOfWindow;
         int face = window / light.latticeCount, lattice = window - face * light.latticeCount;
         bool isOn = face < patches;
         if (!anyOfUs(isOn)) break;
-        isPaused = group != groupOfRound();
+        isPaused = group != groupOfRound() || (step_ > 0 && work >= round_.work);
         if (isPaused) break;
         Patch patch_ = patchOf(seen, face, receiver.normalLight, toSurface);
         vec2 offset = light.offsets[lattice].xy;
-        beginWith(seen, patch_, receiver.normalLight, lattice, offset, toSurface);
+        if (step_ == 0 || resumes) beginWith(seen, patch_, receiver.normalLight, lattice, offset, toSurface);
         for (int j = 0; j < ROWS && resumes; ++j) hidden[j] |= states[base + uint(EXACT_STATE_WORDS + j)];
-        resumes = false;
 
         uint first = tileIndex * uint(frame.tileCapacity);
         Look look = Look(projectionOf(patch_, offset), shaftFrom(apex), receiver.normalLight, apex, list, first,
-                         first + uint(frame.tileCapacity) - 1u, group);
+                         first + uint(frame.tileCapacity) - 1u, group, step_ > 0);
         if (!isOn) {
             for (int j = 0; j < ROWS; ++j) hidden[j] = 0xffffffffu;
         }
+#ifdef PANE_STEPS
+        if (step_ > 0) {
+            if (resumes) opaque = hidden;
+            takeSamples(step_, isOn);
+        }
+#endif
+        resumes = false;
         bool isDark = isAllHidden();
         Leaf leaf = Leaf(0u, 0u, false);
         Blocker blocker;
@@ -333,6 +379,10 @@ void main() {
             } while (!isOver(progress, list) && work < round_.work && !anyOfUs(counts));
             counts = counts && !isInLightPlane(triangle) &&
                      !isUnderfoot(footing, receiver.normalLight, apex, blocker.a, blocker.b, blocker.c);
+#ifdef PANE_STEPS
+            if (look.isOfPanes) crossPane(blocker, seen, patch_, offset, triangle, leaf.hasHoles, counts);
+            counts = counts && !look.isOfPanes;
+#endif
             project(blocker);
             bool plain = isPlain(blocker, seen, leaf.hasHoles);
             hide(counts && plain);
@@ -341,17 +391,38 @@ void main() {
             work += 4;
         }
         isPaused = !isOver(progress, list) && anyOfUs(!isDark);
+#ifdef PANE_STEPS
+        if (step_ > 0) hidden = opaque;
+#endif
         if (isPaused) break;
 
         // What is all hidden stays so: the other groups need not be asked.
-        bool isLast = group == round_.groups - 1 || !anyOfUs(!isDark);
-        if (isLast) {
-            progress.part += round_.groups - 1 - group;
-            addUp(sums, seen, patch_, receiver.normalLight, lattice, offset, isOn, patches * light.latticeCount == 1);
-            for (int j = 0; j < ROWS; ++j) hidden[j] = 0u;  // what is saved of a window that has not begun
+        bool isLast = group == round_.groups - 1 || !anyOfUs(!isDark), isWindowOver = isLast;
+        if (isLast && step_ == 0) {
+            bool isOnly = patches * light.latticeCount == 1;
+#ifdef PANE_STEPS
+            isOnly = isOnly && !mayListPanes(list);  // they take from what is weighed
+#endif
+            addUp(sums, seen, patch_, receiver.normalLight, lattice, offset, isOn, isOnly);
             work += 32 * ROWS;
         }
-        progress = startOf(progress.part, isLast ? 0u : list.plain);
+#ifdef PANE_STEPS
+        if (isLast) {
+            if (step_ == 0) opaque = hidden;
+            else addPanes(sums, seen, patch_, receiver.normalLight, lattice, offset);
+            beginPanes();
+            work += 4 * ROWS + 10 * EXACT_PANE_SAMPLES;
+            // Whether there may be samples that are left, and panes.
+            bool goesOn = step_ == 0 ? !isDark && mayListPanes(list) : placeCount == EXACT_PANE_SAMPLES;
+            isWindowOver = step_ == PANE_STEPS || !anyOfUs(goesOn);
+        }
+#endif
+        if (isLast) progress.part += round_.groups - 1 - group;
+        if (isWindowOver) {
+            progress.part = (window + 1) * stepsOfWindow * round_.groups - 1;
+            for (int j = 0; j < ROWS; ++j) hidden[j] = 0u;  // what is saved of a window that has not begun
+        }
+        progress = startOf(progress.part, isWindowOver ? 0u : list.plain);
     }
 
     if (!inside) return;

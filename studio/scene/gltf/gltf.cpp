@@ -19,18 +19,25 @@ namespace {
 
 using namespace gltf;
 
-void nameGlass(Scene& scene) {
+void nameGlass(Scene& scene, Glass glass) {
     const std::vector<Instance> instances = scene.at(0).instances;
     const auto panes = std::ranges::count_if(instances, [&](const Instance& instance) {
-        return scene.materials[std::size_t(scene.meshes[std::size_t(instance.mesh)].material)]
-            .glass.has_value();
+        return scene.materials[std::size_t(scene.meshes[std::size_t(instance.mesh)].material)].isPane();
     });
-    if (panes > 0)
+    if (panes == 0) return;
+    const std::string counted = fmt::format("/materials: {} pane{} of glass", panes, panes == 1 ? "" : "s");
+    const char* ofOne = panes == 1 ? "s" : "";
+    if (glass == Glass::tinted) {
+        scene.warnings.push_back(fmt::format(
+            "{} (an alpha below 1, or transmission) take{} a share of the light, in exact and the reference; "
+            "--glass clear lets all of it through, --glass blocks none",
+            counted, ofOne));
+    } else {
         scene.warnings.push_back(
-            fmt::format("/materials: {} pane{} of glass (alpha below 0.5, or transmission above 0.5) let{} "
-                        "light through; "
-                        "--glass blocks makes them cast",
-                        panes, panes == 1 ? "" : "s", panes == 1 ? "s" : ""));
+            fmt::format("{} (alpha below 0.5, or transmission above 0.5) let{} light through; "
+                        "--glass tinted makes them take their share, --glass blocks makes them cast",
+                        counted, ofOne));
+    }
 }
 
 glm::dmat4 worldFromFile(const GltfOptions& options) {
@@ -61,7 +68,7 @@ Scene load(const std::filesystem::path& file, const GltfOptions& options) {
     parts.cameras = loadCameras(root, parts.hierarchy);
     if (scene.name.empty()) scene.name = file.stem().string();
     scene.motion = std::make_shared<GltfMotion>(std::move(parts), budget, scene);
-    nameGlass(scene);
+    nameGlass(scene, options.glass);
     return scene;
 }
 

@@ -62,7 +62,7 @@ TEST_F(GltfLook, LetsLightThroughGlass) {
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_EQ(scene.warnings[0],
               "/materials: 1 pane of glass (alpha below 0.5, or transmission above 0.5) lets light through; "
-              "--glass blocks makes them cast");
+              "--glass tinted makes them take their share, --glass blocks makes them cast");
     gltf_.json["nodes"][0]["extras"]["penumbra"]["casts"] = true;
     EXPECT_TRUE(casts(Glass::clear)) << "the node's own word";
     gltf_.json["nodes"][0].erase("extras");
@@ -71,6 +71,54 @@ TEST_F(GltfLook, LetsLightThroughGlass) {
     for (const double transmission : {0.4, 0.6}) {
         material = {{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", transmission}}}}}};
         EXPECT_EQ(casts(Glass::clear), transmission < 0.5);
+    }
+}
+
+TEST_F(GltfLook, TintedGlassTakesItsShare) {
+    gltf_.addTriangle()["material"] = 0;
+    Json& material = gltf_.json["materials"][0];
+    const auto instance = [&] { return load({.glass = Glass::tinted}).at(0).instances.at(0); };
+    const auto made = [&](const char* mode, double alpha, double transmission) {
+        material = {{"alphaMode", mode},
+                    {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 1, 0.25, alpha}}}}};
+        if (transmission >= 0)
+            material["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", transmission}};
+    };
+    const auto expectPane = [&](const glm::vec3& passes) {
+        EXPECT_TRUE(instance().casts);
+        expectNear(instance().transmittance, passes);
+    };
+    // Alpha is how much of it is there: whatever its colour, the rest of the light passes.
+    made("BLEND", 0.4, -1);
+    expectPane({0.6, 0.6, 0.6});
+    const Scene scene = load({.glass = Glass::tinted});
+    ASSERT_EQ(scene.warnings.size(), 1u);
+    EXPECT_EQ(scene.warnings[0],
+              "/materials: 1 pane of glass (an alpha below 1, or transmission) takes a share of the light, "
+              "in exact "
+              "and the reference; --glass clear lets all of it through, --glass blocks none");
+    made("BLEND", 0.75, -1);
+    expectPane({0.25, 0.25, 0.25});
+    EXPECT_FALSE(load({.glass = Glass::tinted}).materials.at(0).glass) << "is drawn as it was";
+    // Transmission is tinted by the base colour, and alpha means nothing without BLEND.
+    made("OPAQUE", 0.4, 0.8);
+    expectPane({0.4, 0.8, 0.2});
+    made("BLEND", 0.5, 0.8);
+    expectPane({0.7, 0.9, 0.6});
+    made("OPAQUE", 1, -1);
+    expectPane({0, 0, 0});
+    // What is black takes all of it, what is white nothing.
+    material["pbrMetallicRoughness"]["baseColorFactor"] = {0, 0, 0, 1};
+    material["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 1}};
+    expectPane({0, 0, 0});
+    material["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 1};
+    EXPECT_FALSE(instance().casts);
+    // The node's own word is all or nothing.
+    made("BLEND", 0.4, -1);
+    for (const bool casts : {false, true}) {
+        gltf_.json["nodes"][0]["extras"]["penumbra"]["casts"] = casts;
+        EXPECT_EQ(instance().casts, casts);
+        expectNear(instance().transmittance, {0, 0, 0});
     }
 }
 

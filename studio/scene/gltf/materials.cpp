@@ -151,10 +151,26 @@ bool hasHoles(const Picture& picture, float factor) {
     return false;
 }
 
+// What passes a surface, a channel each. glTF's alpha is how much of it is there at all
+// (specification, 3.9.4), and what is not there takes nothing; of what is there KHR_materials_transmission
+// lets a share through, times the base colour. Without what is reflected at a pane's faces.
+glm::vec3 passingShare(float transmission, AlphaMode mode, const glm::vec4& baseColor) {
+    const float there = mode == AlphaMode::blend ? baseColor.a : 1;
+    return (1 - there) + there * transmission * glm::vec3(baseColor);
+}
+
 // A material of which one can see through all or parts becomes glass, or a mask.
-void makeGlass(const JsonView& json, AlphaMode mode, const Scene& scene, Material& material) {
-    const auto transmission = extensionOf(json, "KHR_materials_transmission");
-    if (transmission && transmission->number("transmissionFactor", 0, {0, 1}) > leastOfASolid) {
+void makeGlass(const JsonView& json, AlphaMode mode, Glass glass, const Scene& scene, Material& material) {
+    const auto extension = extensionOf(json, "KHR_materials_transmission");
+    const float transmission = extension ? extension->number("transmissionFactor", 0, {0, 1}) : 0;
+    // What a texture says of a surface that is there for the most part is where it has holes.
+    const bool isCutOut =
+        mode == AlphaMode::blend && material.baseColorTexture >= 0 && material.baseColor.a >= leastOfASolid;
+    const glm::vec3 passes = passingShare(transmission, mode, material.baseColor);
+    const bool letsThrough = transmission > 0 || (mode == AlphaMode::blend && material.baseColor.a < 1);
+    if (glass == Glass::tinted && letsThrough && !isCutOut && passes != glm::vec3(1))
+        material.transmittance = passes;
+    if (transmission > leastOfASolid) {
         material.glass = glm::vec3(material.baseColor);
     } else if (mode == AlphaMode::blend && material.baseColor.a < leastOfASolid) {
         material.glass = glm::mix(glm::vec3(1), glm::vec3(material.baseColor), material.baseColor.a);
@@ -226,7 +242,7 @@ std::vector<std::optional<UvSource>> loadMaterials(const JsonView& root, const A
             if (const auto info = pbr->find("metallicRoughnessTexture"))
                 info->at("index").asIndex(textures.size());
         }
-        if (glass == Glass::clear) makeGlass(json, mode, scene, material);
+        if (glass != Glass::blocks) makeGlass(json, mode, glass, scene, material);
         loadEmission(json, textures, material, uvSource, scene.warnings);
         for (const char* key : {"normalTexture", "occlusionTexture"})
             if (const auto info = json.find(key)) info->at("index").asIndex(textures.size());

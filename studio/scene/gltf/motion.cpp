@@ -233,11 +233,13 @@ Instance GltfMotion::instanceAt(const Scene& scene, const Placement& placement, 
     const Node& node = parts_.hierarchy.nodes[std::size_t(placement.node)];
     const Mesh& mesh = scene.meshes[std::size_t(placement.part.mesh)];
     const Material& material = scene.materials[std::size_t(mesh.material)];
-    Instance instance{.mesh = placement.part.mesh,
-                      .node = placement.node,
-                      .worldFromMesh = glm::mat4(worldFromMesh(placement, pose)),
-                      .casts = node.casts.value_or(!material.glass),
-                      .receives = node.receives};
+    Instance instance{
+        .mesh = placement.part.mesh,
+        .node = placement.node,
+        .worldFromMesh = glm::mat4(worldFromMesh(placement, pose)),
+        .casts = node.casts.value_or(material.casts()),
+        .receives = node.receives,
+        .transmittance = node.casts ? glm::vec3(0) : material.transmittance.value_or(glm::vec3(0))};
     if (mesh.deforms()) deform(mesh, placement, pose, instance);
     return instance;
 }

@@ -232,7 +232,10 @@ class SidecarMotion : public Scene::Motion {
     static void setFlags(const std::map<int, SurfaceFlags>& flags, int index, Instance& instance) {
         const auto found = flags.find(index);
         if (found == flags.end()) return;
-        instance.casts = found->second.casts.value_or(instance.casts);
+        if (found->second.casts) {  // all or nothing, of panes too
+            instance.casts = *found->second.casts;
+            instance.transmittance = glm::vec3(0);
+        }
         instance.receives = found->second.receives.value_or(instance.receives);
     }
 
