@@ -182,6 +182,21 @@ TEST(Layout, OnlyOneHeaderIncludesOpenGLInTheLibrary) {
     EXPECT_EQ(users, std::set<std::string>{"src/gl/gl.h"});
 }
 
+// Mesa leaves the filters of such a sampler as the program before had them, and compiles for seconds anew for
+// each kind it meets.
+TEST(Layout, NoShaderReadsABufferThroughASampler) {
+    for (const char* folder : {"src", "studio"}) {
+        for (const fs::path& file : sourcesIn(folder)) {
+            if (file.extension() != ".glsl") continue;
+            std::ifstream text(file);
+            for (std::string line; std::getline(text, line);) {
+                EXPECT_EQ(line.find("samplerBuffer"), std::string::npos)
+                    << file << ": " << line << "; take a readonly uimageBuffer (gl::TexelBuffer)";
+            }
+        }
+    }
+}
+
 TEST(Layout, EveryRoomHasAReadmeAndEverySourceALicence) {
     for (const auto& room : fs::directory_iterator(root / "src/techniques")) {
         if (!room.is_directory() || room.path().filename() == "common") continue;

@@ -10,6 +10,8 @@ namespace penumbra::gl {
 namespace {
 
 constexpr std::size_t texel_bytes = sizeof(glm::uvec4);
+/// An odd number, this and above, is no power of two: llvmpipe compiles programs for such by themselves.
+constexpr std::size_t leastTexels = 3;
 
 }  // namespace
 
@@ -23,7 +25,7 @@ bool TexelBuffer::reserve(std::size_t texels) {
                         "buffer texture of this device (" + std::to_string(limit) + " texels)");
     }
     view_ = {};
-    buffer_.reserve(std::max<std::size_t>(texels, 1) * texel_bytes, label_);
+    buffer_.reserve(std::max(texels | 1, leastTexels) * texel_bytes, label_);
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
     view_ = Handle<deleteTexture>(name);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Holes of alpha-masked casters.
-uniform usamplerBuffer maskedTriangles;
+layout(rgba32ui) uniform readonly uimageBuffer maskedTriangles;
 // x: factor; y: cutoff; z: which texture, w: of which group. The textures of one group are bound at a time.
 layout(std430) readonly buffer Masks { vec4 masks[]; };
 uniform sampler2D alphaTextures[EXACT_GROUP_TEXTURES];
@@ -19,14 +19,14 @@ float alphaOf(int which, vec2 uv) {
     }
 }
 
-int placeOf(uint triangle) { return int(texelFetch(triangles, int(3u * triangle)).w); }
+int placeOf(uint triangle) { return int(imageLoad(triangles, int(3u * triangle)).w); }
 
-int groupOf(uint triangle) { return int(masks[texelFetch(maskedTriangles, 2 * placeOf(triangle) + 1).w].w); }
+int groupOf(uint triangle) { return int(masks[imageLoad(maskedTriangles, 2 * placeOf(triangle) + 1).w].w); }
 
 // Whether the triangle blocks light at a point of it, given as the shares of its corners.
 bool isSolid(uint triangle, vec3 share) {
     int place = placeOf(triangle);
-    uvec4 low = texelFetch(maskedTriangles, 2 * place), high = texelFetch(maskedTriangles, 2 * place + 1);
+    uvec4 low = imageLoad(maskedTriangles, 2 * place), high = imageLoad(maskedTriangles, 2 * place + 1);
     vec2 uv = share.x * uintBitsToFloat(low.xy) + share.y * uintBitsToFloat(low.zw) + share.z * uintBitsToFloat(high.xy);
     vec4 mask = masks[high.w];
     return alphaOf(int(mask.z), uv) * mask.x >= mask.y;

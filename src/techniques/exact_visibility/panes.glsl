@@ -66,7 +66,7 @@ void passPane() {
     crossed = crossedBeside = crossedAbove = 0u;
 }
 
-uint paneOf(uint triangle) { return texelFetch(triangles, int(3u * triangle + 1u)).w; }
+uint paneOf(uint triangle) { return imageLoad(triangles, int(3u * triangle + 1u)).w; }
 
 // Notes which samples are behind a triangle of a pane.
 void crossPane(Blocker t, SeenLight seen, Patch patch_, vec2 offset, uint triangle, bool hasHoles, bool counts) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The casters' triangles and the tree over them (caster_soup.h).
-uniform usamplerBuffer treeNodes;
-uniform usamplerBuffer triangles;
+layout(rgba32ui) uniform readonly uimageBuffer treeNodes;
+layout(rgba32ui) uniform readonly uimageBuffer triangles;
 
 struct TreeNode {
     vec3 boxMin, boxMax;
@@ -9,13 +9,13 @@ struct TreeNode {
 };
 
 TreeNode loadNode(uint node) {
-    uvec4 low = texelFetch(treeNodes, int(2u * node));
-    uvec4 high = texelFetch(treeNodes, int(2u * node + 1u));
+    uvec4 low = imageLoad(treeNodes, int(2u * node));
+    uvec4 high = imageLoad(treeNodes, int(2u * node + 1u));
     return TreeNode(uintBitsToFloat(low.xyz), uintBitsToFloat(high.xyz), low.w, high.w);
 }
 
 vec3 loadCorner(uint triangle, uint corner) {
-    return uintBitsToFloat(texelFetch(triangles, int(3u * triangle + corner)).xyz);
+    return uintBitsToFloat(imageLoad(triangles, int(3u * triangle + corner)).xyz);
 }
 
 // What lies in the plane of a flat light hides nothing of it.
