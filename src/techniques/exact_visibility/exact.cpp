@@ -62,6 +62,7 @@ ExactVisibility::ExactVisibility(Device& device)
     : roundWork_(internalsOf(device).isSoftware ? softwareRoundWork : hardwareRoundWork),
       device_(internalsOf(device)),
       candidates_(device_.shaders, {candidatesShader}),
+      sift_(device_.shaders, {"src/techniques/exact_visibility/sift.comp.glsl"}),
       weigh_(device_.shaders, {"src/techniques/exact_visibility/weights.comp.glsl"}),
       restore_(device_.shaders, {"src/techniques/common/restore.comp.glsl"}),
       frame_("exact/frame"),
@@ -102,6 +103,7 @@ const gl::Program& ExactVisibility::resolveFor(const ResolveKind& kind) {
     const auto found = resolve_.find(kind);
     if (found != resolve_.end()) return found->second;
     std::vector<std::string> defines{"ROWS " + std::to_string(kind.rows)};
+    if (kind.isOfParts) defines.emplace_back("WITH_PARTS");
     if (kind.hasHoles) defines.emplace_back("WITH_HOLES");
     if (kind.isUneven) defines.emplace_back("WITH_WEIGHTS");
     if (kind.paneSteps > 0) defines.emplace_back("PANE_STEPS " + std::to_string(kind.paneSteps));
@@ -250,6 +252,7 @@ void ExactVisibility::answer(const Stage& stage, const FrameLight& asked, std::s
                                                stage.hasCasters ? int(soup_.nodeCount()) : 0);
     light_.write(described);
     findCandidates(stage, light, visibility, keeps);
+    if (stage.view.isOfPoints) sift(visibility);
     resolve(stage, light, described, visibility);
     if (keeps) {
         gl::Pass(restore_)
@@ -300,6 +303,26 @@ void ExactVisibility::findCandidates(const Stage& stage, const AreaLight& light,
         .dispatch((answer.tileCount + groupTiles - 1) / groupTiles);
 }
 
+/// Of points that follow each other most see all or nothing, where pixels have shared that with their tile.
+void ExactVisibility::sift(const gl::TextureRef& visibility) {
+    const auto timed = timers_.pass("exact/sift");
+    parts_.reserve(sizeof(BusyTiles) + answer_->tileCount * EXACT_TILE_PARTS * sizeof(std::uint32_t),
+                   "exact/busy parts of tiles");
+    parts_.clear(0, sizeof(BusyTiles));
+    gl::Pass(sift_)
+        .bind(view_)
+        .bind("FrameBlock", frame_)
+        .bind("LightBlock", light_)
+        .bind(soup_)
+        .bind("Candidates", lists_)
+        .bind("TileLists", answer_->tiles)
+        .bind("Busy", busy_)
+        .bind("Parts", parts_)
+        .bind("visibility", visibility)
+        .bind("errorBound", answer_->errorBound)
+        .dispatchIndirect(busy_);
+}
+
 void ExactVisibility::resolve(const Stage& stage, const AreaLight& light, const ExactLight& described,
                               const gl::TextureRef& visibility) {
     const std::vector<LightLattice>& lattices = latticesFor(light);
@@ -328,7 +351,9 @@ void ExactVisibility::resolve(const Stage& stage, const AreaLight& light, const 
 
     const auto timed = timers_.pass("exact/resolve");
     rounds_.clear();
-    gl::Pass pass(resolveFor({int(rows), soup_.maskedCount() > 0, isUneven, paneSteps}));
+    const gl::Buffer& busy = stage.view.isOfPoints ? parts_ : busy_;
+    gl::Pass pass(
+        resolveFor({int(rows), stage.view.isOfPoints, soup_.maskedCount() > 0, isUneven, paneSteps}));
     pass.inOrder()
         .bind(view_)
         .bind("FrameBlock", frame_)
@@ -336,7 +361,7 @@ void ExactVisibility::resolve(const Stage& stage, const AreaLight& light, const 
         .bind(soup_)
         .bind("Candidates", lists_)
         .bind("TileLists", answer_->tiles)
-        .bind("Busy", busy_)
+        .bind("Busy", busy)
         .bind("Weights", answer_->weights)
         .bind("radiance", gl::TextureRef{.name = light.radianceTexture})
         .bind("States", states_)
@@ -347,7 +372,7 @@ void ExactVisibility::resolve(const Stage& stage, const AreaLight& light, const 
     if (pass.has("Panes")) pass.bind("Panes", panes_);
     bindMaskGroup(pass, maskTextures_, 0);
     ExactRound round{.number = 0, .work = roundWork_, .turnRounds = turnRounds, .groups = groups};
-    pass.constants(round).dispatchIndirect(busy_);
+    pass.constants(round).dispatchIndirect(busy);
     const bool looks = stage.view.isOfPoints && device_.isSoftware;
     for (int turn = 0;;) {
         ++round.number;
@@ -386,8 +411,8 @@ Statistics ExactVisibility::statistics() const {
     BusyTiles busy{};
     if (busy_.size_bytes() >= sizeof busy) busy_.read(std::as_writable_bytes(std::span(&busy, 1)));
     std::size_t memory_bytes = soup_.size_bytes() + lists_.size_bytes() + busy_.size_bytes() +
-                               states_.size_bytes() + rounds_.size_bytes() + receivers_.size_bytes() +
-                               tiles_.size_bytes();
+                               parts_.size_bytes() + states_.size_bytes() + rounds_.size_bytes() +
+                               receivers_.size_bytes() + tiles_.size_bytes();
     for (const LightAnswer& answer : answers_) memory_bytes += answer.size_bytes();
     Statistics statistics;
     statistics.counts = {

@@ -53,10 +53,11 @@ class ExactVisibility final : public Technique {
   private:
     /// What a program that resolves is made for.
     struct ResolveKind {
-        int rows;       ///< of the lattice
-        bool hasHoles;  ///< casters have alpha masks
-        bool isUneven;  ///< samples do not count alike
-        int paneSteps;  ///< in which samples are taken through panes
+        int rows;        ///< of the lattice
+        bool isOfParts;  ///< parts of tiles are busy
+        bool hasHoles;   ///< casters have alpha masks
+        bool isUneven;   ///< samples do not count alike
+        int paneSteps;   ///< in which samples are taken through panes
         auto operator<=>(const ResolveKind&) const = default;
     };
 
@@ -73,6 +74,7 @@ class ExactVisibility final : public Technique {
     void answer(const Stage& stage, const FrameLight& light, std::size_t place);
     void findCandidates(const Stage& stage, const AreaLight& light, const gl::TextureRef& visibility,
                         bool keeps);
+    void sift(const gl::TextureRef& visibility);
     void resolve(const Stage& stage, const AreaLight& light, const ExactLight& described,
                  const gl::TextureRef& visibility);
 
@@ -95,7 +97,7 @@ class ExactVisibility final : public Technique {
 
     Device::Internals& device_;
     CasterSoup soup_;
-    gl::Program candidates_, weigh_, restore_;
+    gl::Program candidates_, sift_, weigh_, restore_;
     std::map<ResolveKind, gl::Program> resolve_;
     std::map<std::pair<int, bool>, std::vector<LightLattice>> lattices_;  // by samples, and whether in a disk
 
@@ -112,7 +114,7 @@ class ExactVisibility final : public Technique {
 
     // Of one light after the other.
     gl::ConstantBuffer<ExactLight> light_;
-    gl::Buffer busy_, lists_, states_, rounds_;
+    gl::Buffer busy_, parts_, lists_, states_, rounds_;
     std::vector<std::byte> key_;       ///< of the light that is asked for
     std::deque<LightAnswer> answers_;  ///< by the light's place in its frame
     LightAnswer* answer_ = nullptr;    ///< the last

@@ -28,6 +28,7 @@ namespace penumbra::exact_visibility {
 #define EXACT_GROUP_TEXTURES 8  // alpha textures that are bound at a time
 
 #define EXACT_TILE 8           // pixels along each side of a tile
+#define EXACT_TILE_PARTS 8     // of a tile, each of as many pixels (receivers.glsl)
 #define EXACT_MOST_CHANGED 32  // casters that may change from frame to frame while anything is kept
 
 #define EXACT_GROUPS_ACROSS 32768u  // in the x direction of a dispatch
@@ -84,8 +85,8 @@ SHARED_STRUCT TileList {
     uint stoppedAt, returnTo;  // where the walk through the tree stopped for want of room (see Walk)
 };
 
-/// Tiles whose pixels are looked at one by one, listed behind this: the arguments of a dispatch of so many
-/// groups or a few more, and how many there are.
+/// Tiles, or parts of tiles, whose pixels are looked at one by one, listed behind this: the arguments of a
+/// dispatch of so many groups or a few more, and how many there are.
 SHARED_STRUCT BusyTiles {
     uint groupsX, groupsY, groupsZ;
     uint count;

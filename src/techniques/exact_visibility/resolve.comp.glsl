@@ -2,9 +2,9 @@
 #version 450
 #extension GL_ARB_shader_group_vote : enable
 // For each receiver of a busy tile, the samples of the light that no candidate of its tile hides. Defines: ROWS, the rows
-// of a lattice; WITH_HOLES, where casters have alpha masks; WITH_WEIGHTS, where samples do not count alike; PANE_STEPS, where
-// casters let light through, how often samples are taken until there are no more. (llvmpipe runs both sides of a branch, and
-// every loop once.)
+// of a lattice; WITH_PARTS, where parts of tiles are busy; WITH_HOLES, where casters have alpha masks; WITH_WEIGHTS, where samples
+// do not count alike; PANE_STEPS, where casters let light through, how often samples are taken until there are no more.
+// (llvmpipe runs both sides of a branch, and every loop once.)
 layout(local_size_x = 8, local_size_y = 8) in;
 #ifndef ROWS
 #define ROWS 11
@@ -238,9 +238,6 @@ Shaft shaftFrom(vec3 apex) {
     return shaft;
 }
 
-// Eight in a row, which is what software runs together, stand in 4 x 2 pixels: closer to each other than in 8 x 1.
-ivec2 placeInTile(ivec2 thread) { return ivec2((thread.x & 3) + 4 * (thread.y & 1), (thread.x >> 2) + (thread.y & 6)); }
-
 // The receivers together, and the light as they see it.
 struct Look {
     Projection projection;
@@ -281,10 +278,18 @@ void visitNode(Look look, bool isPlainPart, inout Progress progress, inout Leaf 
 
 void main() {
     uint place = gl_WorkGroupID.y * EXACT_GROUPS_ACROSS + gl_WorkGroupID.x;
+    ivec2 thread = ivec2(gl_LocalInvocationID.xy);
+#ifdef WITH_PARTS
+    place = EXACT_TILE_PARTS * place + uint(thread.y);
+    if (place >= busy.count) return;
+    uint tileIndex = busyTiles[place] / EXACT_TILE_PARTS;
+    thread.y = int(busyTiles[place] % EXACT_TILE_PARTS);
+#else
     if (place >= busy.count) return;
     uint tileIndex = busyTiles[place];
+#endif
     ivec2 tile = ivec2(int(tileIndex) % frame.tilesAcross, int(tileIndex) / frame.tilesAcross);
-    ivec2 pixel = 8 * tile + placeInTile(ivec2(gl_LocalInvocationID.xy));
+    ivec2 pixel = EXACT_TILE * tile + placeInTile(thread);
     bool inside = all(lessThan(pixel, view.size_px));
     uint base = uint(min(pixel.y, view.size_px.y - 1) * view.size_px.x + min(pixel.x, view.size_px.x - 1)) * STATE_WORDS;
     TileList list = tileLists[tileIndex];
