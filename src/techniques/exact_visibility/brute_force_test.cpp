@@ -43,7 +43,10 @@ class BruteForceShaders {
                  "#define mayBlockTile(shaft, sides, bounds, node) true\n"
                  "#define mayHideFromTile(bounds, sides, triangle) (!isInLightPlane(triangle))\n"
                  "#define isSmall(bounds, size, node) false\n"
-                 "#define mayReachLight(bounds, boxMin, boxMax) true\n");
+                 "#define mayReachLight(bounds, boxMin, boxMax) true\n"
+                 "#define isDark(bounds) ((bounds).otherNormal < 0.0)\n"  // only where nothing receives
+                 "#define isAboveHorizon(bounds) false\n"
+                 "#define hidesAll(bounds, triangle, borders) false\n");
         redefine("blockers.glsl", "// What turns a box", "#define isAnyOpen(low, high) true\n");
         redefine("resolve.comp.glsl", "// The next node",
                  "#define mayBoxHide(projection, normal, apex, boxMin, boxMax) true\n");
