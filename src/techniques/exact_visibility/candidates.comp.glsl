@@ -19,6 +19,7 @@ layout(std430) readonly buffer Tiles { TileBounds tileBounds[]; };
 layout(std430) readonly buffer TileRevisions { uint tileRevisions[]; };
 layout(std430) readonly buffer Weights { uint weightsChangedAt; };
 layout(std430) buffer MadeAt { uint madeAt[]; };                 // of the kept tiles, plus 1
+layout(std430) writeonly buffer Leeways { float leeways[]; };    // of the tiles: see Leeway
 layout(std430) readonly buffer ChangedBoxes { vec4 changed[]; };  // low and high
 uniform writeonly image2D visibility;
 layout(r16f) uniform writeonly image2D errorBound;
@@ -65,6 +66,19 @@ bool isAboveHorizon(TileBounds bounds) {
     if (isFlat() && before.x < least && (light.emitter.isOneSided || before.y > -least)) return false;
     vec3 lowest = mix(light.boxMax, light.boxMin, greaterThan(bounds.normal, vec3(0.0)));
     return dot(bounds.normal, lowest) - bounds.highest - bounds.otherNormal * away > 2e-4 * away + rounded;
+}
+
+// How far a blocker, a metre away from a receiver, may be from where it is, so that its shadow's edges move by no more than
+// stand-ins may move them. At the share w of the way, d metres are d / w on the light's plane, and more where the light is
+// seen from the side, by the share of its distance in that along its axis. Where a horizon cuts the light, what is left may
+// be of any width. Points may be asked for one by one, and see all triangles.
+float leewayPerMetre(TileBounds bounds) {
+    if (view.isOfPoints || keeping.standInShift <= 0.0 || !isAboveHorizon(bounds)) return 0.0;
+    if (light.emitter.shape == shapeDistant) return keeping.standInShift;
+    float away = farthestFromLight(bounds);
+    if (!isFlat()) return keeping.standInShift / away;
+    vec2 before = beforeFlatLight(bounds);
+    return keeping.standInShift * max(max(before.x, -before.y), 0.0) / (away * away);
 }
 
 // Of what size things are, far from the tile by a metre, between which and the light's samples there is no more to gain
@@ -168,6 +182,9 @@ void main() {
     // Where a horizon cuts a picture's light, its texels are looked up, and nobody tells when they change.
     madeAt[tile] = keeping.keeps && (isKnown || !light.emitter.isTextured) ? revision : 0u;
 
+    Leeway leeway = Leeway(bounds.low, bounds.high, leewayPerMetre(bounds));
+    leeways[tile] = leeway.perMetre;
+
     // Plain nodes from the front of the tile's part of the lists, those that take a test a sample from its back.
     uint capacity = uint(frame.tileCapacity);
     uint first = tile * capacity;
@@ -196,15 +213,15 @@ void main() {
             isSpecial = (caster & (EXACT_MASKED | EXACT_PANE)) != 0u || mayReachLight(bounds, visited.boxMin, visited.boxMax);
             isOfLarge = isLarge(bounds, visited);
             isListed = false;
-            lists = isHit && visited.leaf == EXACT_INNER && caster != EXACT_INNER && isSmall(bounds, size, visited);
+            lists = isHit && isInner(visited) && caster != EXACT_INNER && isSmall(bounds, size, visited);
             if (isHit && hasTriangles(visited)) {
                 triangle = firstTriangle(visited.leaf);
                 end = triangle + triangleCount(visited.leaf);
             }
             bool enters = isHit && !lists;
-            bool leaves = visited.skip == EXACT_END && !(enters && visited.leaf == EXACT_INNER);
-            walk = advance(walk, visited, enters);
-            bool isCaster = visited.leaf != EXACT_INNER && (visited.leaf & EXACT_SUBTREE) != 0u;
+            bool leaves = visited.skip == EXACT_END && !(enters && isInner(visited));
+            walk = advance(walk, visited, enters, leeway);
+            bool isCaster = !isInner(visited) && (visited.leaf & EXACT_SUBTREE) != 0u;
             if (isCaster) caster = enters ? visited.leaf : EXACT_INNER;
             else if (leaves) caster = EXACT_INNER;
         }

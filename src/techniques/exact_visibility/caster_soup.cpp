@@ -47,13 +47,27 @@ glm::dvec3 chooseOrigin(std::span<const Caster> casters) {
     return glm::round(0.5 * (low + high) / grid) * grid;
 }
 
+/// How much longer a vector may become at most.
+double stretchOf(const glm::dmat3& matrix) {
+    // The square of the greatest stretch is an eigenvalue of this, and no eigenvalue exceeds the sums of its
+    // rows.
+    const glm::dmat3 squares = glm::transpose(matrix) * matrix;
+    double largest = 0;
+    for (int i = 0; i < 3; ++i)
+        largest =
+            std::max(largest, std::abs(squares[i][0]) + std::abs(squares[i][1]) + std::abs(squares[i][2]));
+    return std::sqrt(largest);
+}
+
 }  // namespace
 
 CasterSoup::CasterSoup()
     : nodes_("exact/nodes"), triangles_("exact/triangles"), masked_("exact/texture coordinates") {}
 
-void CasterSoup::Entry::take(const Caster& caster) {
+void CasterSoup::Entry::take(const Caster& caster, bool usesStandIns) {
     const bool sameTriangles = sameBits(indices, caster.mesh->indices());
+    const bool samePositions = sameBits(positions, caster.mesh->positions());
+    deforms = deforms || (sameTriangles && !samePositions && !indices.empty());
     if (!sameTriangles) {
         const auto span = caster.mesh->indices();
         indices.assign(span.begin(), span.end());
@@ -70,6 +84,36 @@ void CasterSoup::Entry::take(const Caster& caster) {
         for (std::size_t i = 0; i < indices.size(); ++i) meshBoxes[i / 3].add(toGlm(positions[indices[i]]));
         shape = buildTree(meshBoxes, EXACT_LEAF_TRIANGLES);
     }
+    const bool makes = mayHaveStandIns(caster, usesStandIns);
+    if (makes && hasStandIns && sameTriangles && samePositions) return;
+    hasStandIns = makes;
+    standIns.clear();
+    standInIndices.clear();
+    if (makes) makeStandInTrees();
+}
+
+void CasterSoup::Entry::makeStandInTrees() {
+    StandIns made = makeStandIns(shape, positions, indices);
+    standInIndices = std::move(made.indices);
+    std::size_t node = shape.nodes.size();
+    std::vector<TreeBox> meshBoxes;
+    for (const StandIn& standIn : made.list) {
+        meshBoxes.assign(standIn.count, {});
+        for (std::size_t i = 0; i < 3 * standIn.count; ++i)
+            meshBoxes[i / 3].add(toGlm(positions[standInIndices[3 * standIn.first + i]]));
+        standIns.push_back({.node = standIn.node,
+                            .deviation_m = standIn.deviation,
+                            .firstNode = node,
+                            .firstTriangle = indices.size() / 3 + standIn.first,
+                            .shape = buildTree(meshBoxes, EXACT_LEAF_TRIANGLES),
+                            .boxes = {}});
+        node += 1 + standIns.back().shape.nodes.size();
+    }
+}
+
+std::size_t CasterSoup::Entry::nodeCount() const {
+    return standIns.empty() ? shape.nodes.size()
+                            : standIns.back().firstNode + 1 + standIns.back().shape.nodes.size();
 }
 
 void CasterSoup::Entry::place(const glm::dvec3& origin, std::vector<glm::vec3>& posScene) {
@@ -79,22 +123,37 @@ void CasterSoup::Entry::place(const glm::dvec3& origin, std::vector<glm::vec3>& 
     std::ranges::transform(positions, posScene.begin(), [&](const Vec3& posMesh) {
         return glm::vec3(sceneFromMesh * glm::dvec4(toGlm(posMesh), 1));
     });
-    corners.resize(indices.size());
-    const auto boxOf = [&](const TreeShape::Node& leaf) {
-        TreeBox box;
-        for (std::size_t place = leaf.first; place < leaf.first + leaf.count; ++place) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const glm::vec3& corner = posScene[indices[3 * std::size_t(shape.order[place]) + k]];
-                corners[3 * place + k] = texel(corner, 0);
-                box.add(corner);
+    corners.resize(indices.size() + standInIndices.size());
+    const auto refit = [&](const TreeShape& tree, std::span<const std::uint32_t> vertices,
+                           std::span<glm::uvec4> placed, std::vector<TreeBox>& result) {
+        const auto boxOf = [&](const TreeShape::Node& leaf) {
+            TreeBox box;
+            for (std::size_t place = leaf.first; place < leaf.first + leaf.count; ++place) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const glm::vec3& corner = posScene[vertices[3 * std::size_t(tree.order[place]) + k]];
+                    placed[3 * place + k] = texel(corner, 0);
+                    box.add(corner);
+                }
             }
-        }
-        return box;
+            return box;
+        };
+        refitTree(tree, boxOf, result);
     };
-    refitTree(shape, boxOf, boxes);
+    refit(shape, indices, corners, boxes);
+    for (StandInTree& standIn : standIns) {
+        refit(standIn.shape, std::span(standInIndices).subspan(3 * standIn.firstTriangle - indices.size()),
+              std::span(corners).subspan(3 * standIn.firstTriangle), standIn.boxes);
+    }
 }
 
-bool CasterSoup::Entry::isStale(const Caster& caster) const {
+/// Meshes that are deformed would need others in each frame.
+bool CasterSoup::Entry::mayHaveStandIns(const Caster& caster, bool usesStandIns) const {
+    return usesStandIns && !deforms && caster.mesh->revision() == 0 && caster.alphaMask.texture == 0 &&
+           !isPane(caster) && caster.mesh->indices().size() >= 3 * leastForStandIns;
+}
+
+bool CasterSoup::Entry::isStale(const Caster& caster, bool usesStandIns) const {
+    if (hasStandIns != mayHaveStandIns(caster, usesStandIns)) return true;
     if (!sameMatrix(worldFromMesh, caster.worldFromMesh)) return true;
     if (mesh == caster.mesh->id() && revision == caster.mesh->revision()) return false;
     return !sameBits(indices, caster.mesh->indices()) || !sameBits(positions, caster.mesh->positions()) ||
@@ -120,7 +179,7 @@ void CasterSoup::noteChanged(const Entry& entry) {
     changed_.emplace_back(entry.boxes.front().max, 0);
 }
 
-void CasterSoup::update(std::span<const Caster> casters) {
+void CasterSoup::update(std::span<const Caster> casters, bool usesStandIns) {
     const glm::dvec3 origin = chooseOrigin(casters);
     const bool moved = origin != originWorld_;
     originWorld_ = origin;
@@ -144,10 +203,10 @@ void CasterSoup::update(std::span<const Caster> casters) {
         }
         if (count == entries_.size()) entries_.emplace_back();
         Entry& entry = entries_[count++];
-        const bool stale = entry.isStale(caster);
+        const bool stale = entry.isStale(caster, usesStandIns);
         const bool changes = stale || moved || entry.mayLetOtherLightThrough(caster);
         if (changes) noteChanged(entry);
-        if (stale) entry.take(caster);
+        if (stale) entry.take(caster, usesStandIns);
         if (stale || moved) entry.place(origin, posScene_);
         entry.holes = caster.alphaMask;
         entry.transmittance = caster.transmittance;
@@ -174,7 +233,7 @@ void CasterSoup::send() {
         entry.firstNode = node;
         entry.firstTriangle = triangle;
         entry.firstMasked = masked;
-        node += entry.shape.nodes.size();
+        node += entry.nodeCount();
         triangle += triangles;
         if (entry.mask >= 0) masked += triangles;
         if (entry.pane >= 0) panes += triangles;
@@ -195,20 +254,38 @@ void CasterSoup::send() {
     sendTop();
 }
 
-void CasterSoup::send(Entry& entry) {
+void CasterSoup::sendNodes(const Entry& entry) {
     std::vector<glm::uvec4>& texels = texels_;
     texels.clear();
-    texels.reserve(2 * entry.boxes.size());
-    for (std::size_t i = 0; i < entry.boxes.size(); ++i) {
-        const TreeShape::Node& node = entry.shape.nodes[i];
-        const bool last = node.skip == entry.boxes.size();
-        texels.push_back(
-            texel(entry.boxes[i].min, last ? EXACT_END : std::uint32_t(entry.firstNode) + node.skip));
-        const std::uint32_t leaf = (std::uint32_t(entry.firstTriangle) + node.first) |
-                                   (node.count - 1) << EXACT_COUNT_SHIFT | entry.flags();
-        texels.push_back(texel(entry.boxes[i].max, node.count == 0 ? EXACT_INNER : leaf));
+    texels.reserve(2 * entry.nodeCount());
+    // `after` follows where the tree ends.
+    const auto add = [&](const TreeShape& shape, std::span<const TreeBox> boxes, std::size_t firstNode,
+                         std::size_t firstTriangle, std::uint32_t after) {
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            const TreeShape::Node& node = shape.nodes[i];
+            const bool last = node.skip == boxes.size();
+            texels.push_back(texel(boxes[i].min, last ? after : std::uint32_t(firstNode) + node.skip));
+            const std::uint32_t leaf = (std::uint32_t(firstTriangle) + node.first) |
+                                       (node.count - 1) << EXACT_COUNT_SHIFT | entry.flags();
+            texels.push_back(texel(boxes[i].max, node.count == 0 ? EXACT_INNER : leaf));
+        }
+    };
+    add(entry.shape, entry.boxes, entry.firstNode, entry.firstTriangle, EXACT_END);
+    glm::dmat4 worldFromMesh = toGlm(entry.worldFromMesh);
+    const double stretch = stretchOf(glm::dmat3(worldFromMesh));
+    for (const StandInTree& standIn : entry.standIns) {
+        const auto header = std::uint32_t(entry.firstNode + standIn.firstNode);
+        const std::uint32_t after = texels[2 * std::size_t(standIn.node)].w;
+        texels[2 * std::size_t(standIn.node) + 1].w = EXACT_STAND_IN | header;
+        texels.push_back(texel(glm::vec3(float(stretch * double(standIn.deviation_m)), 0, 0), after));
+        texels.push_back(texel(glm::vec3(0), EXACT_INNER));
+        add(standIn.shape, standIn.boxes, header + 1, entry.firstTriangle + standIn.firstTriangle, after);
     }
     nodes_.write(texels, 2 * entry.firstNode);
+}
+
+void CasterSoup::send(Entry& entry) {
+    sendNodes(entry);
 
     // Only of triangles with holes it is asked where their texture coordinates are.
     for (std::size_t i = 0; i < entry.corners.size() && entry.mask >= 0; ++i)
@@ -219,6 +296,7 @@ void CasterSoup::send(Entry& entry) {
     triangles_.write(entry.corners, 3 * entry.firstTriangle);
 
     if (entry.mask >= 0) {
+        std::vector<glm::uvec4>& texels = texels_;
         texels.clear();
         const auto uv = [&](std::size_t corner) {
             const std::uint32_t vertex = entry.indices[corner];
@@ -266,6 +344,12 @@ std::size_t CasterSoup::countNear(const glm::vec3& planePoint, const glm::vec3& 
         const float reach = glm::dot(glm::abs(normal), extent) + distance;
         if (!(std::abs(glm::dot(normal, middle - planePoint)) > reach)) count += entry.corners.size() / 3;
     }
+    return count;
+}
+
+std::size_t CasterSoup::standInTriangleCount() const {
+    std::size_t count = 0;
+    for (const Entry& entry : entries_) count += entry.standInIndices.size() / 3;
     return count;
 }
 

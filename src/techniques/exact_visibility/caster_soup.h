@@ -11,6 +11,7 @@
 #include "src/gl/pass.h"
 #include "src/gl/texel_buffer.h"
 #include "src/techniques/exact_visibility/exact_io.h"
+#include "src/techniques/exact_visibility/stand_ins.h"
 #include "src/techniques/exact_visibility/triangle_tree.h"
 
 namespace penumbra::exact_visibility {
@@ -22,9 +23,10 @@ class CasterSoup {
   public:
     CasterSoup();
 
-    /// Takes the casters in. Throws Error::Kind::badArgument where they have more triangles than the device
+    /// Takes the casters in; where `usesStandIns`, dense meshes that are not deformed and have no holes get
+    /// coarser stand-ins. Throws Error::Kind::badArgument where they have more triangles than the device
     /// can address.
-    void update(std::span<const Caster> casters);
+    void update(std::span<const Caster> casters, bool usesStandIns);
 
     /// Counts the updates after which something was not as before.
     std::uint64_t revision() const { return revision_; }
@@ -45,7 +47,9 @@ class CasterSoup {
     void bindTo(gl::Pass& pass) const;
 
     std::size_t nodeCount() const { return nodeCount_; }
+    /// Those of stand-ins, too.
     std::size_t triangleCount() const { return triangleCount_; }
+    std::size_t standInTriangleCount() const;
     std::size_t maskedCount() const { return maskedCount_; }
     std::size_t paneTriangleCount() const { return paneTriangleCount_; }
     /// Triangles of all casters that come nearer than `distance` to a plane, or cross it (scene axes,
@@ -62,6 +66,16 @@ class CasterSoup {
     const std::vector<glm::vec4>& transmittances() const { return transmittances_; }
 
   private:
+    /// What stands in for a node of a caster's tree.
+    struct StandInTree {
+        std::uint32_t node;
+        float deviation_m;          ///< in mesh space
+        std::size_t firstNode;      ///< of the caster's: one that says how far it deviates, then the tree
+        std::size_t firstTriangle;  ///< of the caster's
+        TreeShape shape;
+        std::vector<TreeBox> boxes;
+    };
+
     /// A caster, with copies of what it is made of to see whether it is still the same.
     struct Entry {
         std::uint64_t mesh = 0, revision = 0;  ///< Mesh's; nothing else is looked at where they are the same
@@ -77,13 +91,20 @@ class CasterSoup {
         TreeShape shape;
         std::vector<TreeBox> boxes;       ///< one a node
         std::vector<glm::uvec4> corners;  ///< three a triangle, in the order of the tree: as shaders get them
+        bool hasStandIns = false;         ///< or would, if it was dense
+        bool deforms = false;             ///< it had other positions once
+        std::vector<std::uint32_t> standInIndices;
+        std::vector<StandInTree> standIns;  ///< their corners stand behind the others
         bool isSent = false;
         std::size_t firstNode = 0, firstTriangle = 0, firstMasked = 0;
 
-        bool isStale(const Caster& caster) const;
         bool mayLetOtherLightThrough(const Caster& caster) const;
         std::uint32_t flags() const;  ///< of its nodes
-        void take(const Caster& caster);
+        std::size_t nodeCount() const;
+        bool mayHaveStandIns(const Caster& caster, bool usesStandIns) const;
+        bool isStale(const Caster& caster, bool usesStandIns) const;
+        void take(const Caster& caster, bool usesStandIns);
+        void makeStandInTrees();
         /// `posScene` is room for the positions.
         void place(const glm::dvec3& origin, std::vector<glm::vec3>& posScene);
     };
@@ -91,6 +112,7 @@ class CasterSoup {
     void noteChanged(const Entry& entry);
     void send();
     void send(Entry& entry);
+    void sendNodes(const Entry& entry);
     void sendTop();
 
     std::vector<Entry> entries_;

@@ -80,6 +80,11 @@ void ExactVisibility::describe(ParameterVisitor& visitor) {
     visitor.choice({.name = "weight",
                     .help = "what each part of the light counts: its area, or what it sends to the surface"},
                    weight_, weights);
+    visitor.boolean(
+        {.name = "stand_ins",
+         .help = "coarser geometry for what is far from whom it shadows, where that moves no edge "
+                 "by more than a quarter of the distance between samples"},
+        usesStandIns_);
     visitor.integer({.name = "tile_candidates",
                      .unit = "nodes",
                      .help = "room for each 8 x 8 pixels; those with more take longer, and give the same"},
@@ -180,6 +185,7 @@ void ExactVisibility::describeKey(const Stage& stage, const FrameLight& asked) {
     appendBytes(key_, stage.hasCasters);
     appendBytes(key_, samples_);
     appendBytes(key_, weight_);
+    appendBytes(key_, usesStandIns_);
 }
 
 /// Whether tiles may keep their answers: the camera, the light and the options are those of the last frame,
@@ -199,7 +205,7 @@ void ExactVisibility::renderLights(const FrameInputs& frame) {
     if (frame.lights.empty()) return;
     {
         const auto pass = frameTimers_.pass("exact/upload");
-        soup_.update(frame.casters);
+        soup_.update(frame.casters, usesStandIns_);
         sendMasks();
     }
     isSameView_ = receivers_.follow(frame.view);
@@ -277,6 +283,7 @@ void ExactVisibility::findCandidates(const Stage& stage, const AreaLight& light,
             .dispatch(EXACT_MAX_ROWS / 8, EXACT_MAX_ROWS / 8, latticesFor(light).size());
     }
     const auto pass = timers_.pass("exact/candidates");
+    leeways_.reserve(answer.tileCount * sizeof(float), "exact/leeways");
     busy_.reserve(sizeof(BusyTiles) + answer.tileCount * sizeof(std::uint32_t), "exact/busy tiles");
     busy_.clear(0, sizeof(BusyTiles));
     lists_.reserve(answer.tileCount * std::size_t(tileCapacity_) * sizeof(std::uint32_t), "exact/candidates");
@@ -285,7 +292,8 @@ void ExactVisibility::findCandidates(const Stage& stage, const AreaLight& light,
     gl::Pass(candidates_)
         .constants(ExactKeeping{
             .keeps = bool32(keeps),
-            .changedBoxes = keeps && haveCastersChanged ? int(soup_.changedBoxes().size() / 2) : 0})
+            .changedBoxes = keeps && haveCastersChanged ? int(soup_.changedBoxes().size() / 2) : 0,
+            .standInShift = usesStandIns_ ? standInShift(light, latticesFor(light), weight_ != 0) : 0})
         .bind(view_)
         .bind("FrameBlock", frame_)
         .bind("LightBlock", light_)
@@ -296,6 +304,7 @@ void ExactVisibility::findCandidates(const Stage& stage, const AreaLight& light,
         .bind("TileRevisions", receivers_.tileRevisions())
         .bind("Weights", answer.weights)
         .bind("MadeAt", answer.madeAt)
+        .bind("Leeways", leeways_)
         .bind("ChangedBoxes", changedBoxes_)
         .bind("Busy", busy_)
         .bind("visibility", visibility)
@@ -360,7 +369,9 @@ void ExactVisibility::resolve(const Stage& stage, const AreaLight& light, const 
         .bind("LightBlock", light_)
         .bind(soup_)
         .bind("Candidates", lists_)
+        .bind("Tiles", tiles_.bounds())
         .bind("TileLists", answer_->tiles)
+        .bind("Leeways", leeways_)
         .bind("Busy", busy)
         .bind("Weights", answer_->weights)
         .bind("radiance", gl::TextureRef{.name = light.radianceTexture})
@@ -412,11 +423,12 @@ Statistics ExactVisibility::statistics() const {
     if (busy_.size_bytes() >= sizeof busy) busy_.read(std::as_writable_bytes(std::span(&busy, 1)));
     std::size_t memory_bytes = soup_.size_bytes() + lists_.size_bytes() + busy_.size_bytes() +
                                parts_.size_bytes() + states_.size_bytes() + rounds_.size_bytes() +
-                               receivers_.size_bytes() + tiles_.size_bytes();
+                               receivers_.size_bytes() + tiles_.size_bytes() + leeways_.size_bytes();
     for (const LightAnswer& answer : answers_) memory_bytes += answer.size_bytes();
     Statistics statistics;
     statistics.counts = {
-        {"triangles", double(soup_.triangleCount())},
+        {"triangles", double(soup_.triangleCount() - soup_.standInTriangleCount())},
+        {"triangles of stand-ins", double(soup_.standInTriangleCount())},
         {"tiles with candidates", double(tiles.withCandidates)},
         {"candidates per tile",
          tiles.withCandidates > 0 ? double(tiles.candidates) / tiles.withCandidates : 0.0},

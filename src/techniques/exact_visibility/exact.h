@@ -92,6 +92,7 @@ class ExactVisibility final : public Technique {
 
     int samples_ = 64;
     int weight_ = 0;
+    bool usesStandIns_ = false;
     int tileCapacity_ = 512;
     int roundWork_;
 
@@ -114,7 +115,7 @@ class ExactVisibility final : public Technique {
 
     // Of one light after the other.
     gl::ConstantBuffer<ExactLight> light_;
-    gl::Buffer busy_, parts_, lists_, states_, rounds_;
+    gl::Buffer busy_, parts_, leeways_, lists_, states_, rounds_;
     std::vector<std::byte> key_;       ///< of the light that is asked for
     std::deque<LightAnswer> answers_;  ///< by the light's place in its frame
     LightAnswer* answer_ = nullptr;    ///< the last

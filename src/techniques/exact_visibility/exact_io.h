@@ -13,17 +13,21 @@ namespace penumbra::exact_visibility {
 #endif
 
 // Nodes of the tree: what stands in the fourth words.
-#define EXACT_END 0xffffffffu      // skip: the tree, or a caster's subtree, ends here
-#define EXACT_INNER 0xffffffffu    // leaf: none; the first child is the next node
-#define EXACT_SUBTREE 0x80000000u  // leaf: a caster's subtree begins at the node in the lowest bits
-#define EXACT_MASKED 0x40000000u   // leaf: the caster or its triangles have holes
-#define EXACT_COUNT_SHIFT 28       // leaf: two bits from here on are the number of its triangles, less one;
-#define EXACT_PANE 0x08000000u     // leaf: the caster or its triangles let light through
-#define EXACT_FIRST 0x07ffffffu    // leaf: these, its first triangle
-#define EXACT_LEAF_TRIANGLES 4     // at most
+#define EXACT_END 0xffffffffu       // skip: the tree, or a caster's subtree, ends here
+#define EXACT_INNER 0xffffffffu     // leaf: none; the first child is the next node
+#define EXACT_SUBTREE 0x80000000u   // leaf: a caster's subtree begins at the node in the lowest bits
+#define EXACT_MASKED 0x40000000u    // leaf: the caster or its triangles have holes
+#define EXACT_STAND_IN 0x90000000u  // leaf: none, as EXACT_INNER; a stand-in, too (firstBelow in tree.glsl)
+#define EXACT_COUNT_SHIFT 28        // leaf: two bits from here on are the number of its triangles, less one;
+#define EXACT_PANE 0x08000000u      // leaf: the caster or its triangles let light through
+#define EXACT_FIRST 0x07ffffffu     // leaf: these, its first triangle
+#define EXACT_LEAF_TRIANGLES 4      // at most
 
 #define EXACT_MAX_ROWS 24     // of a lattice, and bits in a row
 #define EXACT_MAX_LATTICES 4  // what more than 256 samples are split into
+
+// By how much stand-ins may move an edge at most, in distances between samples.
+#define EXACT_STAND_IN_SHIFT 0.25
 
 #define EXACT_GROUP_TEXTURES 8  // alpha textures that are bound at a time
 
@@ -107,10 +111,12 @@ SHARED_STRUCT ExactLook {
     uint words;   // that are kept of a pixel
 };
 
-/// What of a light's last answer may stay.
+/// What of a light's last answer may stay, and how coarse casters may be.
 SHARED_STRUCT ExactKeeping {
-    bool32 keeps;      // tiles whose revision is as it was
-    int changedBoxes;  // around casters that are not as they were
+    bool32 keeps;        // tiles whose revision is as it was
+    int changedBoxes;    // around casters that are not as they were
+    float standInShift;  // by how much stand-ins may move an edge on the light: metres; distant: tangent of
+                         // an angle
 };
 
 #ifdef __cplusplus

@@ -80,4 +80,16 @@ ExactLight describeLight(const AreaLight& light, const glm::dvec3& originWorld,
     return result;
 }
 
+float standInShift(const AreaLight& light, std::span<const LightLattice> lattices,
+                   bool isWeightedByIrradiance) {
+    if (light.radianceTexture != 0 || isWeightedByIrradiance) return 0;
+    // Along the light's smaller side, whichever way the edge lies.
+    const glm::dvec2 extent = lightExtent(light);
+    double size = std::min(extent.x, extent.y);
+    constexpr double widestTangent = 1;  // beyond 45 degrees an angle's tangent grows faster than it does
+    if (light.shape == LightShape::distant) size = std::min(size, widestTangent);
+    const double spacing = glm::length(glm::inverse(lattices.front().latticeFromUv)[0]);
+    return float(EXACT_STAND_IN_SHIFT * size * spacing / std::sqrt(double(lattices.size())));
+}
+
 }  // namespace penumbra::exact_visibility

@@ -19,4 +19,10 @@ ExactFrame describeFrame(const View& view, const glm::dvec3& originWorld, int ti
 ExactLight describeLight(const AreaLight& light, const glm::dvec3& originWorld,
                          std::span<const LightLattice> lattices, bool isWeightedByIrradiance, int nodeCount);
 
+/// By how much stand-ins may move a shadow's edge on the light, in metres; of distant lights, as the tangent
+/// of an angle. 0 where they may not: what part of a picture, or of what it sends to the surface, an edge
+/// meets there cannot be told beforehand.
+float standInShift(const AreaLight& light, std::span<const LightLattice> lattices,
+                   bool isWeightedByIrradiance);
+
 }  // namespace penumbra::exact_visibility

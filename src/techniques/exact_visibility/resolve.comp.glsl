@@ -24,6 +24,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140) uniform Constants { ExactRound round_; };
 layout(std430) readonly buffer Candidates { uint candidates[]; };
 layout(std430) readonly buffer TileLists { TileList tileLists[]; };
+layout(std430) readonly buffer Tiles { TileBounds tileBounds[]; };
+layout(std430) readonly buffer Leeways { float leeways[]; };
 layout(std430) readonly buffer Busy { BusyTiles busy; uint busyTiles[]; };
 layout(std430) readonly buffer Weights { uint weightsChangedAt; vec4 weights[]; };
 uniform writeonly image2D visibility;
@@ -247,6 +249,7 @@ struct Look {
     uint first, last;  // the tile's part of the lists
     int group;
     bool isOfPanes;
+    Leeway leeway;
 };
 
 // The next node on the way: one of the tile's list, or below such a one, or beyond the list; or none, where a leaf has
@@ -268,8 +271,8 @@ void visitNode(Look look, bool isPlainPart, inout Progress progress, inout Leaf 
         ++progress.next;
         progress.walk.returnTo = node.skip;
     }
-    if (isListed) progress.walk.node = isHit && node.leaf == EXACT_INNER ? at + 1u : node.skip;
-    else progress.walk = advance(progress.walk, node, isHit);
+    if (isListed) progress.walk.node = isHit && isInner(node) ? firstBelow(at, node, look.leeway) : node.skip;
+    else progress.walk = advance(progress.walk, node, isHit, look.leeway);
     if (isHit && hasTriangles(node) && (isPlainPart || belongsTo(look.group, look.isOfPanes, node.leaf))) {
         uint triangle = firstTriangle(node.leaf);
         leaf = Leaf(triangle, triangle + triangleCount(node.leaf), (node.leaf & EXACT_MASKED) != 0u);
@@ -293,6 +296,7 @@ void main() {
     bool inside = all(lessThan(pixel, view.size_px));
     uint base = uint(min(pixel.y, view.size_px.y - 1) * view.size_px.x + min(pixel.x, view.size_px.x - 1)) * STATE_WORDS;
     TileList list = tileLists[tileIndex];
+    Leeway leeway = Leeway(tileBounds[tileIndex].low, tileBounds[tileIndex].high, leeways[tileIndex]);
 
 #ifdef PANE_STEPS
     beginPanes();
@@ -330,7 +334,7 @@ void main() {
 
         uint first = tileIndex * uint(frame.tileCapacity);
         Look look = Look(projectionOf(patch_, offset), shaftFrom(apex), receiver.normalLight, apex, list, first,
-                         first + uint(frame.tileCapacity) - 1u, group, step_ > 0);
+                         first + uint(frame.tileCapacity) - 1u, group, step_ > 0, leeway);
         if (!isOn) {
             for (int j = 0; j < ROWS; ++j) hidden[j] = 0xffffffffu;
         }
@@ -443,6 +447,7 @@ void main() {
     vec3 value = mix(vec3(0.0), sums.seen / max(sums.whole, vec3(1e-37)), greaterThan(sums.whole, vec3(0.0)));
     if (!receives) value = vec3(1.0);
     imageStore(visibility, pixel, vec4(clamp(value, 0.0, 1.0), 1.0));
-    float bound = sums.samples > 0.0 ? min(0.5 * sums.borders / sums.samples, 1.0) : 0.0;
+    float ofEdge = 0.5 + (leeway.perMetre > 0.0 ? EXACT_STAND_IN_SHIFT : 0.0);
+    float bound = sums.samples > 0.0 ? min(ofEdge * sums.borders / sums.samples, 1.0) : 0.0;
     imageStore(errorBound, pixel, vec4(bound));
 }

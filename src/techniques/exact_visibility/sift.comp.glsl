@@ -65,7 +65,7 @@ float seenFrom(ivec2 pixel, TileList list, uint first, uint last) {
                 triangle = firstTriangle(visited.leaf);
                 end = triangle + triangleCount(visited.leaf);
             }
-            node = isHit && visited.leaf == EXACT_INNER ? node + 1u : visited.skip;
+            node = isHit && isInner(visited) ? node + 1u : visited.skip;
         }
     }
     if (isHidden) return 0.0;

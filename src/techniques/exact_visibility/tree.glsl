@@ -24,6 +24,24 @@ bool isInLightPlane(uint triangle) {
            liesInLightPlane(loadCorner(triangle, 2u));
 }
 
+bool hasStandIn(TreeNode node) { return (node.leaf & ~EXACT_FIRST) == EXACT_STAND_IN; }
+bool isInner(TreeNode node) { return node.leaf == EXACT_INNER || hasStandIn(node); }
+
+// Receivers, and how far a blocker may be from where it is, by its distance from them: what may stand in for it.
+struct Leeway {
+    vec3 low, high;  // of the receivers
+    float perMetre;
+};
+
+// The first node below an inner one: its child, or what stands in for all below it where that is near enough to it.
+uint firstBelow(uint at, TreeNode node, Leeway leeway) {
+    if (!hasStandIn(node) || leeway.perMetre <= 0.0) return at + 1u;
+    uint header = node.leaf & EXACT_FIRST;
+    float deviation = loadNode(header).boxMin.x;
+    vec3 apart = max(max(node.boxMin - leeway.high, leeway.low - node.boxMax), vec3(0.0));
+    return deviation < leeway.perMetre * length(apart) ? header + 1u : at + 1u;
+}
+
 // A place in a walk through the tree: nothing else is needed to go on from there.
 struct Walk {
     uint node;      // EXACT_END: over
@@ -31,14 +49,14 @@ struct Walk {
 };
 
 // The next place, after `node` has been looked at.
-Walk advance(Walk walk, TreeNode node, bool isHit) {
-    if (isHit && node.leaf == EXACT_INNER) return Walk(walk.node + 1u, walk.returnTo);
+Walk advance(Walk walk, TreeNode node, bool isHit, Leeway leeway) {
+    if (isHit && isInner(node)) return Walk(firstBelow(walk.node, node, leeway), walk.returnTo);
     if (isHit && (node.leaf & EXACT_SUBTREE) != 0u) return Walk(node.leaf & EXACT_FIRST, node.skip);
     if (node.skip == EXACT_END) return Walk(walk.returnTo, EXACT_END);
     return Walk(node.skip, walk.returnTo);
 }
 
-bool hasTriangles(TreeNode node) { return node.leaf != EXACT_INNER && (node.leaf & EXACT_SUBTREE) == 0u; }
+bool hasTriangles(TreeNode node) { return !isInner(node) && (node.leaf & EXACT_SUBTREE) == 0u; }
 uint firstTriangle(uint leaf) { return leaf & EXACT_FIRST; }
 uint triangleCount(uint leaf) { return (leaf >> EXACT_COUNT_SHIFT & 3u) + 1u; }
 
