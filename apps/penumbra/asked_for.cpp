@@ -60,6 +60,7 @@ std::vector<std::pair<std::string, std::string>> AskedFor::settingsOf(const std:
     if (!error) return settings;
     const Promise promise = cheapestFor(*error, technique);
     if (!promise.parameter.empty()) settings.emplace_back(promise.parameter, promise.value);
+    for (const Setting& setting : promise.besides) settings.emplace_back(setting.parameter, setting.value);
     return settings;
 }
 

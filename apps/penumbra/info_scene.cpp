@@ -179,6 +179,8 @@ nlohmann::ordered_json lightJson(const SceneSummary& summary, const Light& light
     const auto& [technique, promise] = summary.choice;
     json["auto"] = {{"technique", technique}};
     if (!promise.parameter.empty()) json["auto"][std::string(promise.parameter)] = promise.value;
+    for (const Setting& setting : promise.besides)
+        json["auto"][std::string(setting.parameter)] = setting.value;
     json["auto"]["asked"] = decimalOf(summary.maxError);
     json["auto"]["promised"] = decimalOf(promise.penumbraRmse);
     json["auto"]["why"] = whyItIs(summary);

@@ -10,6 +10,11 @@
 
 namespace penumbra {
 
+/// A value of one of a technique's parameters.
+struct Setting {
+    std::string_view parameter, value;
+};
+
 /// A setting of a technique, and what it keeps.
 struct Promise {
     std::string_view parameter;  ///< to be set to `value`; empty: the technique as it is made
@@ -20,6 +25,8 @@ struct Promise {
     float penumbraRmse;
     /// Of the device's time, in units of `hard`'s: what to expect before anything has been measured.
     float cost;
+    /// What is set besides `parameter`. Its storage is static.
+    std::span<const Setting> besides{};
 };
 
 /// Those of the technique of that name; none where it makes no promise. Their storage is static.

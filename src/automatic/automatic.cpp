@@ -71,7 +71,10 @@ Technique& Automatic::take(std::size_t step) {
     if (std::ranges::find(made_, name, [](const auto& entry) { return entry.first; }) == made_.end())
         made_.emplace_back(name, make(device_));
     Technique& taken = technique(name);
-    if (taken_ != step && !promise.parameter.empty()) setParameter(taken, promise.parameter, promise.value);
+    if (taken_ != step) {
+        if (!promise.parameter.empty()) setParameter(taken, promise.parameter, promise.value);
+        for (const Setting& setting : promise.besides) setParameter(taken, setting.parameter, setting.value);
+    }
     taken_ = step;
     return taken;
 }

@@ -66,6 +66,9 @@ void PatchSimplifier::load(std::span<const Triangle> triangles) {
     const std::size_t count = vertices_.size();
     quadrics_.assign(count, {});
     nextPoint_.assign(count, none);
+    ringOf_.assign(count, none);
+    seenFrom_.assign(count, 0);
+    stamp_ = 1;
     if (facesOf_.size() < count) facesOf_.resize(count);
     for (std::size_t i = 0; i < count; ++i) facesOf_[i].clear();
     for (std::uint32_t i = 0; i < faces_.size(); ++i) {
@@ -85,13 +88,8 @@ void PatchSimplifier::load(std::span<const Triangle> triangles) {
     }
 }
 
-/// Vertices around which the triangles of the patch are no disk, with all of them turned the same way.
-void PatchSimplifier::lockRim() {
-    isLocked_.assign(vertices_.size(), 0);
-    for (std::uint32_t i = 0; i < vertices_.size(); ++i) isLocked_[i] = !findRing(i);
-}
-
-/// The vertex's neighbours, each followed by the next one around it. False where they do not close a ring.
+/// The vertex's neighbours, each followed by the next one around it. False where they do not close a ring,
+/// which is so of all vertices at the patch's rim, and stays so, since no edge there goes or comes.
 bool PatchSimplifier::findRing(std::uint32_t vertex) {
     spokes_.clear();
     for (const std::uint32_t face : facesOf_[vertex]) {
@@ -100,8 +98,9 @@ bool PatchSimplifier::findRing(std::uint32_t vertex) {
         spokes_.emplace_back(v[std::size_t(k + 1) % 3], v[std::size_t(k + 2) % 3]);
     }
     ring_.clear();
-    std::uint32_t at = spokes_.front().first;
-    for (std::size_t i = 0; i < spokes_.size(); ++i) {
+    const std::uint32_t first = spokes_.front().first;
+    std::uint32_t at = first;
+    do {
         ring_.push_back(at);
         std::uint32_t next = none;
         for (const auto& [from, to] : spokes_) {
@@ -109,24 +108,26 @@ bool PatchSimplifier::findRing(std::uint32_t vertex) {
             if (next != none) return false;
             next = to;
         }
-        if (next == none) return false;
+        if (next == none || ring_.size() > spokes_.size()) return false;
         at = next;
-        if (at == spokes_.front().first) return i + 1 == spokes_.size() && spokes_.size() >= 3;
-    }
-    return false;
+    } while (at != first);
+    for (const std::uint32_t neighbour : ring_) ringOf_[neighbour] = vertex;
+    return ring_.size() == spokes_.size() && ring_.size() >= 3;
 }
 
 /// Whether the vertex, whose ring is known, may be moved to one of it: without another sheet than the one
 /// around both, and without folds.
-bool PatchSimplifier::mayMove(std::uint32_t from, std::uint32_t to) const {
-    std::size_t shared = 0;
-    for (const std::uint32_t neighbour : ring_) {
-        if (neighbour == to) continue;
-        shared += std::ranges::any_of(facesOf_[to], [&](std::uint32_t face) {
-            const Triangle& v = faces_[face].vertices;
-            return v[0] == neighbour || v[1] == neighbour || v[2] == neighbour;
-        });
+bool PatchSimplifier::mayMove(std::uint32_t from, std::uint32_t to) {
+    // Of the ring, those that are neighbours of both.
+    int shared = 0;
+    for (const std::uint32_t face : facesOf_[to]) {
+        for (const std::uint32_t vertex : faces_[face].vertices) {
+            if (vertex == to || ringOf_[vertex] != from || seenFrom_[vertex] == stamp_) continue;
+            seenFrom_[vertex] = stamp_;
+            ++shared;
+        }
     }
+    ++stamp_;
     if (shared != 2) return false;
     for (std::size_t i = 0; i < ring_.size(); ++i) {
         const std::uint32_t a = ring_[i], b = ring_[(i + 1) % ring_.size()];
@@ -218,23 +219,18 @@ bool PatchSimplifier::collapse(const Collapse& collapse, float largestDeviation)
 PatchSimplifier::Result PatchSimplifier::simplify(std::span<const Triangle> triangles,
                                                   float largestDeviation) {
     load(triangles);
-    lockRim();
     isTouched_.assign(vertices_.size(), 1);
     best_.assign(vertices_.size(), {});
     // In each pass what is cheapest, where nothing has changed since its cost was computed.
     for (bool changes = true; changes;) {
         collapses_.clear();
         for (std::uint32_t vertex = 0; vertex < vertices_.size(); ++vertex) {
-            if (isLocked_[vertex]) continue;
             if (std::exchange(isTouched_[vertex], 0)) best_[vertex] = bestFor(vertex);
             if (best_[vertex]) collapses_.push_back(&*best_[vertex]);
         }
         std::ranges::sort(collapses_, {}, [](const Collapse* c) { return std::pair(c->cost, c->from); });
         changes = false;
-        std::size_t tried = 0;
         for (const Collapse* next : collapses_) {
-            // Of the dearer half only if none of the others could be done.
-            if (2 * tried++ > collapses_.size() && changes) break;
             const std::uint32_t from = next->from;
             if (isTouched_[from]) continue;
             changes = collapse(*next, largestDeviation) || changes;

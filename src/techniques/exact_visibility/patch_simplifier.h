@@ -55,9 +55,8 @@ class PatchSimplifier {
     };
 
     void load(std::span<const Triangle> triangles);
-    void lockRim();
     bool findRing(std::uint32_t vertex);
-    bool mayMove(std::uint32_t from, std::uint32_t to) const;
+    bool mayMove(std::uint32_t from, std::uint32_t to);
     std::optional<Collapse> bestFor(std::uint32_t vertex);
     bool collapse(const Collapse& collapse, float largestDeviation);
 
@@ -68,7 +67,6 @@ class PatchSimplifier {
     std::vector<std::uint32_t> vertices_;  ///< the mesh's
     std::vector<glm::vec3> at_;            ///< from the patch's first vertex, since sums of squares cancel
     std::vector<Quadric> quadrics_;
-    std::vector<char> isLocked_;
     std::vector<char> isTouched_;                ///< its surroundings have changed since `best_` was found
     std::vector<std::optional<Collapse>> best_;  ///< of a vertex; none that may be done, or was refused
     std::vector<Face> faces_;
@@ -78,6 +76,9 @@ class PatchSimplifier {
 
     // Of a vertex: its neighbours in order, and room for what follows.
     std::vector<std::uint32_t> ring_;
+    std::vector<std::uint32_t> ringOf_;    ///< by vertex: whose ring it was on last
+    std::vector<std::uint32_t> seenFrom_;  ///< by vertex: in which look at shared neighbours, counted by
+    std::uint32_t stamp_ = 1;              ///< this
     std::vector<std::pair<std::uint32_t, std::uint32_t>> spokes_;
     std::vector<std::pair<std::uint32_t, std::size_t>> moved_;  ///< points, and the new face of each
     std::vector<Collapse> options_;
