@@ -146,9 +146,10 @@ nlohmann::ordered_json statisticsJson(const Statistics& statistics) {
     for (const Statistic& count : statistics.counts) json["counts"][std::string(count.name)] = count.value;
     for (const PassTime& pass : statistics.passes)
         json["passes_ms"][std::string(pass.name)] = pass.milliseconds;
-    if (const auto& [technique, parameter, value] = statistics.chosen; !technique.empty()) {
-        json["chosen"] = {{"technique", technique}};
-        if (!parameter.empty()) json["chosen"][std::string(parameter)] = value;
+    if (const Statistics::Chosen& chosen = statistics.chosen; !chosen.technique.empty()) {
+        json["chosen"] = {{"technique", chosen.technique}};
+        for (const penumbra::Setting& setting : settingsOf(chosen))
+            json["chosen"][std::string(setting.parameter)] = setting.value;
     }
     return json;
 }

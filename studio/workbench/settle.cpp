@@ -32,9 +32,24 @@ void settle(Workbench& workbench, const Workbench::TechniqueOf& techniqueOf, con
         workbench.run("settling", techniqueOf, moment, camera, size);
 }
 
+std::vector<penumbra::Setting> settingsOf(const Statistics::Chosen& chosen) {
+    if (chosen.parameter.empty()) return {};
+    std::vector<Setting> settings = {{chosen.parameter, chosen.value}};
+    const std::span<const Promise> promises = promisesOf(chosen.technique);
+    const auto kept = std::ranges::find_if(promises, [&](const Promise& promise) {
+        return promise.parameter == chosen.parameter && promise.value == chosen.value;
+    });
+    if (kept != promises.end()) settings.insert(settings.end(), kept->besides.begin(), kept->besides.end());
+    return settings;
+}
+
 std::string describe(const Statistics::Chosen& chosen) {
-    if (chosen.technique.empty() || chosen.parameter.empty()) return std::string(chosen.technique);
-    return fmt::format("{} with {} = {}", chosen.technique, chosen.parameter, chosen.value);
+    std::string text(chosen.technique);
+    for (const Setting& setting : settingsOf(chosen)) {
+        text += fmt::format("{}{} = {}", text.size() == chosen.technique.size() ? " with " : ", ",
+                            setting.parameter, setting.value);
+    }
+    return text;
 }
 
 }  // namespace penumbra::studio

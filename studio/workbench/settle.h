@@ -13,7 +13,11 @@ bool keepsToATime(Technique& technique);
 void settle(Workbench& workbench, const Workbench::TechniqueOf& techniqueOf, const SceneMoment& moment,
             const Camera& camera, PictureSize size);
 
-/// What a technique has chosen, "exact with samples = 144"; empty where it chooses nothing.
+/// How the technique that was chosen is set: what was told, and what its promise sets besides. Valid for
+/// ever.
+std::vector<penumbra::Setting> settingsOf(const Statistics::Chosen& chosen);
+
+/// What a technique has chosen, "exact with samples = 144, stand_ins = true"; empty where it chooses nothing.
 std::string describe(const Statistics::Chosen& chosen);
 
 }  // namespace penumbra::studio
