@@ -19,7 +19,6 @@ layout(std430) readonly buffer Tiles { TileBounds tileBounds[]; };
 layout(std430) readonly buffer TileRevisions { uint tileRevisions[]; };
 layout(std430) readonly buffer Weights { uint weightsChangedAt; };
 layout(std430) buffer MadeAt { uint madeAt[]; };                 // of the kept tiles, plus 1
-layout(std430) writeonly buffer Leeways { float leeways[]; };    // of the tiles: see Leeway
 layout(std430) readonly buffer ChangedBoxes { vec4 changed[]; };  // low and high
 uniform writeonly image2D visibility;
 layout(r16f) uniform writeonly image2D errorBound;
@@ -183,7 +182,6 @@ void main() {
     madeAt[tile] = keeping.keeps && (isKnown || !light.emitter.isTextured) ? revision : 0u;
 
     Leeway leeway = Leeway(bounds.low, bounds.high, leewayPerMetre(bounds));
-    leeways[tile] = leeway.perMetre;
 
     // Plain nodes from the front of the tile's part of the lists, those that take a test a sample from its back.
     uint capacity = uint(frame.tileCapacity);
@@ -244,7 +242,7 @@ void main() {
         plain = special = 0u;
         walk = Walk(EXACT_END, EXACT_END);
     }
-    tileLists[tile] = TileList(plain, special, walk.node, walk.returnTo);
+    tileLists[tile] = TileList(leeway.low, leeway.perMetre, leeway.high, plain, special, walk.node, walk.returnTo);
 
     // Nothing is in the way: the pixels see all of the light, or none of it where it is behind their horizons. (Of a
     // texture a channel may emit nothing, of which nobody sees anything.)

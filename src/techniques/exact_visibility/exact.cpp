@@ -283,7 +283,6 @@ void ExactVisibility::findCandidates(const Stage& stage, const AreaLight& light,
             .dispatch(EXACT_MAX_ROWS / 8, EXACT_MAX_ROWS / 8, latticesFor(light).size());
     }
     const auto pass = timers_.pass("exact/candidates");
-    leeways_.reserve(answer.tileCount * sizeof(float), "exact/leeways");
     busy_.reserve(sizeof(BusyTiles) + answer.tileCount * sizeof(std::uint32_t), "exact/busy tiles");
     busy_.clear(0, sizeof(BusyTiles));
     lists_.reserve(answer.tileCount * std::size_t(tileCapacity_) * sizeof(std::uint32_t), "exact/candidates");
@@ -304,7 +303,6 @@ void ExactVisibility::findCandidates(const Stage& stage, const AreaLight& light,
         .bind("TileRevisions", receivers_.tileRevisions())
         .bind("Weights", answer.weights)
         .bind("MadeAt", answer.madeAt)
-        .bind("Leeways", leeways_)
         .bind("ChangedBoxes", changedBoxes_)
         .bind("Busy", busy_)
         .bind("visibility", visibility)
@@ -369,9 +367,7 @@ void ExactVisibility::resolve(const Stage& stage, const AreaLight& light, const 
         .bind("LightBlock", light_)
         .bind(soup_)
         .bind("Candidates", lists_)
-        .bind("Tiles", tiles_.bounds())
         .bind("TileLists", answer_->tiles)
-        .bind("Leeways", leeways_)
         .bind("Busy", busy)
         .bind("Weights", answer_->weights)
         .bind("radiance", gl::TextureRef{.name = light.radianceTexture})
@@ -423,7 +419,7 @@ Statistics ExactVisibility::statistics() const {
     if (busy_.size_bytes() >= sizeof busy) busy_.read(std::as_writable_bytes(std::span(&busy, 1)));
     std::size_t memory_bytes = soup_.size_bytes() + lists_.size_bytes() + busy_.size_bytes() +
                                parts_.size_bytes() + states_.size_bytes() + rounds_.size_bytes() +
-                               receivers_.size_bytes() + tiles_.size_bytes() + leeways_.size_bytes();
+                               receivers_.size_bytes() + tiles_.size_bytes();
     for (const LightAnswer& answer : answers_) memory_bytes += answer.size_bytes();
     Statistics statistics;
     statistics.counts = {

@@ -121,7 +121,7 @@ class ExactVisibility final : public Technique {
 
     // Of one light after the other.
     gl::ConstantBuffer<ExactLight> light_;
-    gl::Buffer busy_, parts_, leeways_, lists_, states_, rounds_;
+    gl::Buffer busy_, parts_, lists_, states_, rounds_;
     std::vector<std::byte> key_;       ///< of the light that is asked for
     std::deque<LightAnswer> answers_;  ///< by the light's place in its frame
     LightAnswer* answer_ = nullptr;    ///< the last

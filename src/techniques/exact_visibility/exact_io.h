@@ -85,6 +85,9 @@ SHARED_STRUCT TileBounds {
 /// A tile's part of the lists of nodes: plain candidates from its front, those whose triangles may take a
 /// look at each sample from its back.
 SHARED_STRUCT TileList {
+    vec3 low;              // of the receivers,
+    float leewayPerMetre;  // and how coarse what they see may be (see Leeway)
+    vec3 high;
     uint plain, special;       // how many
     uint stoppedAt, returnTo;  // where the walk through the tree stopped for want of room (see Walk)
 };
@@ -129,7 +132,7 @@ struct ExactWeights {
 static_assert(sizeof(ExactLight) ==
               32 + 16 * (8 + EXACT_MAX_LATTICES + EXACT_MAX_LATTICES * EXACT_MAX_ROWS / 4));
 static_assert(sizeof(ExactFrame) == 48 && sizeof(TileBounds) == 48);
-static_assert(sizeof(TileList) == 16 && sizeof(ExactRound) == 16);
+static_assert(sizeof(TileList) == 48 && sizeof(ExactRound) == 16);
 }  // namespace penumbra::exact_visibility
 #endif
 #endif

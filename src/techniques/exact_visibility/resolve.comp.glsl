@@ -24,8 +24,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140) uniform Constants { ExactRound round_; };
 layout(std430) readonly buffer Candidates { uint candidates[]; };
 layout(std430) readonly buffer TileLists { TileList tileLists[]; };
-layout(std430) readonly buffer Tiles { TileBounds tileBounds[]; };
-layout(std430) readonly buffer Leeways { float leeways[]; };
 layout(std430) readonly buffer Busy { BusyTiles busy; uint busyTiles[]; };
 layout(std430) readonly buffer Weights { uint weightsChangedAt; vec4 weights[]; };
 uniform writeonly image2D visibility;
@@ -296,7 +294,7 @@ void main() {
     bool inside = all(lessThan(pixel, view.size_px));
     uint base = uint(min(pixel.y, view.size_px.y - 1) * view.size_px.x + min(pixel.x, view.size_px.x - 1)) * STATE_WORDS;
     TileList list = tileLists[tileIndex];
-    Leeway leeway = Leeway(tileBounds[tileIndex].low, tileBounds[tileIndex].high, leeways[tileIndex]);
+    Leeway leeway = Leeway(list.low, list.high, list.leewayPerMetre);
 
 #ifdef PANE_STEPS
     beginPanes();
