@@ -70,7 +70,7 @@ void setKnownState() {
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
     glBindBuffer(GL_QUERY_BUFFER, 0);
     // A sampler object would overrule our textures' own filters.
-    glBindSamplers(0, textureUnits, nullptr);
+    glBindSamplers(0, gl::textureUnits, nullptr);
 }
 
 HostState::HostState() {
@@ -200,7 +200,7 @@ void HostState::restoreRaster() const {
 
 void HostState::saveUnits() {
     activeTexture_ = integer(GL_ACTIVE_TEXTURE);
-    for (GLuint unit = 0; unit < textureUnits; ++unit) {
+    for (GLuint unit = 0; unit < gl::textureUnits; ++unit) {
         glActiveTexture(GL_TEXTURE0 + unit);
         for (std::size_t i = 0; i < gl::textureTargets.size(); ++i) {
             textureUnits_[unit].textures[i] = integer(gl::textureTargets[i].binding);
@@ -208,7 +208,7 @@ void HostState::saveUnits() {
         textureUnits_[unit].sampler = integer(GL_SAMPLER_BINDING);
     }
     glActiveTexture(GLenum(activeTexture_));
-    for (GLuint unit = 0; unit < imageUnits; ++unit) {
+    for (GLuint unit = 0; unit < gl::imageUnits; ++unit) {
         imageUnits_[unit] = {integer(GL_IMAGE_BINDING_NAME, unit),    integer(GL_IMAGE_BINDING_LEVEL, unit),
                              integer(GL_IMAGE_BINDING_LAYERED, unit), integer(GL_IMAGE_BINDING_LAYER, unit),
                              integer(GL_IMAGE_BINDING_ACCESS, unit),  integer(GL_IMAGE_BINDING_FORMAT, unit)};
@@ -230,7 +230,7 @@ void HostState::restoreUnits() const {
     const auto isThere = [](GLint texture) {
         return texture != 0 && glIsTexture(GLuint(texture)) == GL_TRUE;
     };
-    for (GLuint unit = 0; unit < textureUnits; ++unit) {
+    for (GLuint unit = 0; unit < gl::textureUnits; ++unit) {
         glBindTextureUnit(unit, 0);  // all targets
         for (const GLint texture : textureUnits_[unit].textures) {
             if (isThere(texture)) glBindTextureUnit(unit, GLuint(texture));
@@ -238,7 +238,7 @@ void HostState::restoreUnits() const {
         glBindSampler(unit, GLuint(textureUnits_[unit].sampler));
     }
     glActiveTexture(GLenum(activeTexture_));
-    for (GLuint unit = 0; unit < imageUnits; ++unit) {
+    for (GLuint unit = 0; unit < gl::imageUnits; ++unit) {
         const ImageUnit& image = imageUnits_[unit];
         glBindImageTexture(unit, isThere(image.texture) ? GLuint(image.texture) : 0, image.level,
                            GLboolean(image.layered), image.layer, GLenum(image.access), GLenum(image.format));

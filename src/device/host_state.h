@@ -6,16 +6,11 @@
 #include <array>
 
 #include "src/device/compatibility_state.h"
+#include "src/gl/program_interface.h"
 #include "src/gl/raster_state.h"
 #include "src/gl/texture_target.h"
 
 namespace penumbra {
-
-/// Bindings that passes may use. OpenGL 4.5 has at least this many of each.
-inline constexpr GLuint textureUnits = 16;
-inline constexpr GLuint imageUnits = 8;
-inline constexpr GLuint storageBlocks = 8;
-inline constexpr GLuint uniformBlocks = 8;
 
 /// The state in which the library's own code starts: OpenGL's defaults wherever `gl::beginPass` does not
 /// state what a pass wants.
@@ -81,10 +76,10 @@ class HostState {
     std::array<DrawBuffer, mostDrawBuffers> drawBuffers_;
 
     GLint activeTexture_;
-    std::array<TextureUnit, textureUnits> textureUnits_;
-    std::array<ImageUnit, imageUnits> imageUnits_;
-    std::array<BlockBinding, storageBlocks> storageBlocks_;
-    std::array<BlockBinding, uniformBlocks> uniformBlocks_;
+    std::array<TextureUnit, gl::textureUnits> textureUnits_;
+    std::array<ImageUnit, gl::imageUnits> imageUnits_;
+    std::array<BlockBinding, gl::storageBlocks> storageBlocks_;
+    std::array<BlockBinding, gl::uniformBlocks> uniformBlocks_;
 };
 
 }  // namespace penumbra

@@ -21,9 +21,10 @@ inline void deleteFramebuffer(GLuint name) {
 class Framebuffer {
   public:
     Framebuffer() = default;
-    /// Either may be empty (null). Throws Error::Kind::outOfMemory if the driver cannot draw to this
+    /// Becomes a framebuffer of these, unless it is one: of the very textures, since a name may have gone to
+    /// another. Either may be empty (null). Throws Error::Kind::outOfMemory if the driver cannot draw to this
     /// combination.
-    Framebuffer(std::initializer_list<const Texture*> colors, const Texture* depth, std::string_view label);
+    void fit(std::initializer_list<const Texture*> colors, const Texture* depth, std::string_view label);
 
     /// Attaches one layer of the depth texture alone, for drivers that cannot choose a layer in the vertex
     /// shader.
@@ -35,8 +36,11 @@ class Framebuffer {
     GLuint name() const { return handle_.name(); }
 
   private:
+    static constexpr std::size_t mostTextures = 6;
+
     Handle<deleteFramebuffer> handle_;
-    std::array<WriteRecord*, 6> records_{};  ///< of its textures
+    std::array<WriteRecord*, mostTextures> records_{};  ///< of its textures
+    std::array<std::uint64_t, mostTextures> identities_{};
 };
 
 }  // namespace penumbra::gl

@@ -5,6 +5,7 @@
 #include <epoxy/gl.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <memory_resource>
 #include <string_view>
@@ -17,9 +18,10 @@ namespace penumbra::gl {
 
 /// What a device's objects and frames have in common.
 struct ObjectRegistry {
-    std::size_t size_bytes = 0;  ///< that objects take
-    bool contextLost = false;    ///< names mean nothing any more, and OpenGL must not be called for them
-    ContextIdentity context;     ///< that objects belong to; of none: whichever is current
+    std::size_t size_bytes = 0;      ///< that objects take
+    bool contextLost = false;        ///< names mean nothing any more, and OpenGL must not be called for them
+    ContextIdentity context;         ///< that objects belong to; of none: whichever is current
+    std::uint64_t newestObject = 0;  ///< objects are numbered as they are made
 
     /// Objects whose owners were destroyed while the context was not current. They are deleted when it is
     /// used again, or with it.
@@ -61,15 +63,20 @@ template <void (*Delete)(GLuint)>
 class Handle {
   public:
     Handle() = default;
-    explicit Handle(GLuint name) : name_(name), registry_(ObjectRegistryScope::current()) {}
+    explicit Handle(GLuint name)
+        : name_(name),
+          registry_(ObjectRegistryScope::current()),
+          identity_(registry_ ? ++registry_->newestObject : 0) {}
     Handle(Handle&& other) noexcept
         : name_(std::exchange(other.name_, 0)),
           size_bytes_(std::exchange(other.size_bytes_, 0)),
-          registry_(std::move(other.registry_)) {}
+          registry_(std::move(other.registry_)),
+          identity_(std::exchange(other.identity_, 0)) {}
     Handle& operator=(Handle&& other) noexcept {
         std::swap(name_, other.name_);
         std::swap(size_bytes_, other.size_bytes_);
         std::swap(registry_, other.registry_);
+        std::swap(identity_, other.identity_);
         return *this;
     }
     ~Handle() {
@@ -82,6 +89,8 @@ class Handle {
         }
     }
     GLuint name() const { return name_; }
+    /// Unlike a name it is never given to another object. 0: none is known.
+    std::uint64_t identity() const { return identity_; }
 
     /// Enters the room that the object takes on the device; once.
     void enter(std::size_t size_bytes) {
@@ -94,6 +103,7 @@ class Handle {
     GLuint name_ = 0;
     std::size_t size_bytes_ = 0;
     std::shared_ptr<ObjectRegistry> registry_;
+    std::uint64_t identity_ = 0;
 };
 
 /// Names an object for debuggers and driver messages: "smoothies/depth".

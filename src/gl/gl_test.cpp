@@ -79,6 +79,29 @@ TEST_F(GlTest, LinesAfterAnIncludeKeepTheirNumbers) {
     }
 }
 
+TEST_F(GlTest, ProgramsAskForNoMoreThanEveryDriverHas) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &most);
+    if (GLuint(most) <= storageBlocks) GTEST_SKIP() << "this driver refuses such a program itself";
+    std::string blocks, sum;
+    for (GLuint i = 0; i <= storageBlocks; ++i) {
+        const std::string number = std::to_string(i);
+        blocks += "layout(std430) buffer Block" + number + " { float value" + number + "; };\n";
+        sum += "value" + number + " += 1.0; ";
+    }
+    const std::string text =
+        "#version 450\nlayout(local_size_x = 1) in;\n" + blocks + "void main() { " + sum + "}\n";
+    const std::array<EmbeddedShader, 1> shaders = {EmbeddedShader{"nine.comp.glsl", text}};
+    ShaderLibrary library = libraryOf(shaders);
+    try {
+        Program(library, {"nine.comp.glsl"});
+        FAIL() << "accepted";
+    } catch (const std::logic_error& error) {
+        EXPECT_NE(std::string(error.what()).find("nine.comp.glsl: 'Block8'"), std::string::npos)
+            << error.what();
+    }
+}
+
 /// Shader files on disk that can be edited, as DeviceOptions::shaderSourceDirectory allows.
 class ReloadTest : public GlTest {
   protected:
@@ -132,7 +155,8 @@ TEST_F(GlTest, TexelsOfRowsOfAnyLengthAreTight) {
 TEST_F(GlTest, IncompleteFramebuffersAreRefused) {
     const Texture color(
         {.width_px = 8, .height_px = 8, .format = Format(GL_RGB9_E5), .label = "not drawable"});
-    EXPECT_THROW(Framebuffer({&color}, nullptr, "framebuffer"), Error);
+    Framebuffer framebuffer;
+    EXPECT_THROW(framebuffer.fit({&color}, nullptr, "framebuffer"), Error);
 }
 
 TEST_F(GlTest, OwnersMoveAndDelete) {

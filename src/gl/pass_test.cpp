@@ -123,7 +123,8 @@ TEST_F(PassTest, WhatOnePassWritesTheNextOneReads) {
 TEST_F(PassTest, DrawsFromNamedInputs) {
     const Program point(library, {"point.vert.glsl", "point.frag.glsl"});
     const Texture picture({.width_px = 2, .format = Format::r32f, .label = "picture"});
-    const Framebuffer target({&picture}, nullptr, "picture");
+    Framebuffer target;
+    target.fit({&picture}, nullptr, "picture");
     constexpr std::array numbers = {7, 9};
     const Buffer places = bufferOf({-0.5f, 0}), shades(std::as_bytes(std::span(numbers)), "shades");
     Pass pass(point);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <stdexcept>
 
 #include "penumbra/device.h"
 #include "src/gl/buffer.h"
@@ -91,6 +92,10 @@ void ProgramState::build(const ShaderLibrary& library) {
         std::ranges::find_if(files, [](const std::string& file) { return file.ends_with(".vert.glsl"); });
     interface = ProgramInterface(handle.name(), texts,
                                  vertexStage == files.end() ? -1 : int(vertexStage - files.begin()));
+    if (const ProgramResource* const tooMuch = interface.firstBeyondPromise(); tooMuch != nullptr) {
+        throw std::logic_error(files.back() + ": '" + tooMuch->name +
+                               "' is one binding of its kind more than OpenGL 4.5 promises");
+    }
     if (const ProgramResource* const block = interface.find("Constants");
         block != nullptr && block->isActive) {
         constants.reserve(block->size_bytes, "constants");

@@ -168,6 +168,21 @@ void locate(GLuint program, ProgramResource& resource, std::array<GLuint, 5>& ne
     }
 }
 
+GLuint mostOf(Kind kind) {
+    switch (kind) {
+        case Kind::uniformBlock:
+            return uniformBlocks;
+        case Kind::storageBlock:
+            return storageBlocks;
+        case Kind::image:
+            return imageUnits;
+        case Kind::texture:
+        case Kind::vertexInput:
+            break;
+    }
+    return textureUnits;  // and as many attributes
+}
+
 }  // namespace
 
 ProgramInterface::ProgramInterface(GLuint program, std::span<const std::string> texts, int vertexStage) {
@@ -194,6 +209,13 @@ ProgramInterface::ProgramInterface(GLuint program, std::span<const std::string> 
 
 const ProgramResource* ProgramInterface::find(std::string_view name) const {
     const auto found = std::ranges::find(resources_, name, &ProgramResource::name);
+    return found == resources_.end() ? nullptr : &*found;
+}
+
+const ProgramResource* ProgramInterface::firstBeyondPromise() const {
+    const auto found = std::ranges::find_if(resources_, [](const ProgramResource& resource) {
+        return resource.isActive && resource.unit + resource.count > mostOf(resource.kind);
+    });
     return found == resources_.end() ? nullptr : &*found;
 }
 

@@ -12,6 +12,13 @@
 
 namespace penumbra::gl {
 
+/// Bindings that a program may use, over all of its stages: of each, what OpenGL 4.5 has at least. A host's
+/// are kept up to there.
+inline constexpr GLuint textureUnits = 16;
+inline constexpr GLuint imageUnits = 8;
+inline constexpr GLuint storageBlocks = 8;
+inline constexpr GLuint uniformBlocks = 8;
+
 /// Something that is bound to a program.
 struct ProgramResource {
     enum class Kind { uniformBlock, storageBlock, texture, image, vertexInput };
@@ -23,8 +30,8 @@ struct ProgramResource {
     bool isActive = false;   ///< declared, and used by what is left after optimisation
     GLuint unit = 0;         ///< binding, texture or image unit, attribute; the first of an array
     GLuint count = 1;        ///< of an array of textures
-    GLuint size_bytes =
-        0;  ///< uniform blocks: of the whole; storage blocks: of an element of an array at their start
+    /// Uniform blocks: of the whole; storage blocks: of an element of an array at their start.
+    GLuint size_bytes = 0;
     GLint components = 0;    ///< vertex inputs
     bool isInteger = false;  ///< vertex inputs
 };
@@ -43,6 +50,9 @@ class ProgramInterface {
     /// A bit each, in the order of `all()`.
     std::uint64_t activeResources() const { return active_; }
     std::span<const ProgramResource> all() const { return resources_; }
+    /// The first resource that is one too many of its kind; null where all are within what OpenGL 4.5
+    /// promises.
+    const ProgramResource* firstBeyondPromise() const;
 
   private:
     std::vector<ProgramResource> resources_;

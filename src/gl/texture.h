@@ -80,6 +80,7 @@ class Texture {
     WriteRecord& record() const { return record_; }
 
     GLuint name() const { return handle_.name(); }
+    std::uint64_t identity() const { return handle_.identity(); }
     int width_px() const { return spec_.width_px; }
     int height_px() const { return spec_.height_px; }
     int layers() const { return spec_.layers; }

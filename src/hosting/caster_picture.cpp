@@ -23,8 +23,9 @@ CasterPainter::CasterPainter(Device::Internals& device, int width_px, int height
       depth_({.width_px = width_px,
               .height_px = height_px,
               .format = gl::Format::depth32f,
-              .label = "casters' depth"}),
-      framebuffer_({&color_, &slopes_}, &depth_, "casters as the host should see them") {}
+              .label = "casters' depth"}) {
+    framebuffer_.fit({&color_, &slopes_}, &depth_, "casters as the host should see them");
+}
 
 void CasterPainter::paint(std::span<const Caster> casters, const Reading& reading) {
     // Our clip space is from 0 to 1, in which depths lie as they are stored.

@@ -33,9 +33,9 @@ void GBuffer::resize(int width_px, int height_px) {
     albedo_ = make(gl::Format::rgba16f, "G-buffer albedo");
     receivers_ = make(gl::Format::r8, "G-buffer receivers");
     emission_ = make(gl::Format::rgba32f, "G-buffer emission");
-    framebuffer_ = gl::Framebuffer({&geometricNormals_, &shadingNormals_, &albedo_, &receivers_, &emission_},
-                                   &depth_, "G-buffer");
-    glassFramebuffer_ = gl::Framebuffer({&albedo_, &emission_}, &depth_, "G-buffer, through glass");
+    framebuffer_.fit({&geometricNormals_, &shadingNormals_, &albedo_, &receivers_, &emission_}, &depth_,
+                     "G-buffer");
+    glassFramebuffer_.fit({&albedo_, &emission_}, &depth_, "G-buffer, through glass");
     view_.width_px = width_px;
     view_.height_px = height_px;
     view_.depthTexture = depth_.name();

@@ -36,13 +36,12 @@ void DepthMap::allocate(int mapSize_px, int layers) {
                                                   std::to_string(device_.maxLayers) + " maps, " +
                                                   std::to_string(device_.maxTextureSize_px) + " texels)");
     }
-    if (maps_.fit({.width_px = mapSize_px,
-                   .height_px = mapSize_px,
-                   .layers = layers,
-                   .format = gl::Format::depth32f,
-                   .label = "depth maps"})) {
-        framebuffer_ = gl::Framebuffer({}, &maps_, "depth maps");
-    }
+    maps_.fit({.width_px = mapSize_px,
+               .height_px = mapSize_px,
+               .layers = layers,
+               .format = gl::Format::depth32f,
+               .label = "depth maps"});
+    framebuffer_.fit({}, &maps_, "depth maps");
 }
 
 void DepthMap::render(std::span<const Caster> casters, const LightSpaceScene& scene,

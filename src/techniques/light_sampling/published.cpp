@@ -65,16 +65,14 @@ void PublishedSampling::prepareTargets(const VisibilityBuffer& out, float scale)
                          .height_px = scaled(out.height_px()),
                          .format = gl::Format::r32ui,
                          .label = "sums of shadow values"};
-    const bool areSumsNew = sumsTarget_.fit(spec);
+    sumsTarget_.fit(spec);
     spec.format = gl::Format::rgba8;
     spec.label = "published light sampling pictures";
-    const bool isPictureNew = sumsPicture_.fit(spec);
-    if (failingPicture_.fit(spec))
-        failing_ = gl::Framebuffer({&failingPicture_}, nullptr, "failing fragments");
-    if (areSumsNew || isPictureNew) {
-        sumsOfRoot_ = gl::Framebuffer({&sumsTarget_, &sumsPicture_}, nullptr, "sums of the root");
-        sumsOfCell_ = gl::Framebuffer({&sumsTarget_}, nullptr, "sums of a quad");
-    }
+    sumsPicture_.fit(spec);
+    failingPicture_.fit(spec);
+    failing_.fit({&failingPicture_}, nullptr, "failing fragments");
+    sumsOfRoot_.fit({&sumsTarget_, &sumsPicture_}, nullptr, "sums of the root");
+    sumsOfCell_.fit({&sumsTarget_}, nullptr, "sums of a quad");
     failingPicture_.clear();
 }
 

@@ -61,13 +61,12 @@ void SampleMaps::prepare(std::span<const Caster> casters, const LightSpaceScene&
     capacity_ = std::clamp(mostLayers / facesInMemory, 1, std::max(1, room.samples));
     if (room.staysWithin) room_.samples = capacity_;
     resident_ = isWhole() || capacity_ >= room.compared + leastBatch;
-    if (maps_.fit({.width_px = mapSize_px,
-                   .height_px = mapSize_px,
-                   .layers = capacity_ * facesInMemory,
-                   .format = gl::Format::depth32f,
-                   .label = "maps of light samples"})) {
-        framebuffer_ = gl::Framebuffer({}, &maps_, "maps of light samples");
-    }
+    maps_.fit({.width_px = mapSize_px,
+               .height_px = mapSize_px,
+               .layers = capacity_ * facesInMemory,
+               .format = gl::Format::depth32f,
+               .label = "maps of light samples"});
+    framebuffer_.fit({}, &maps_, "maps of light samples");
 
     boxes_.clear();
     constants_.clear();

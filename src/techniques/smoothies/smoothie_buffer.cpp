@@ -25,13 +25,12 @@ void SmoothieBuffer::draw(Keeps keeps, const SilhouetteExtractor& silhouettes, c
     cameras_ = surfaces.casters.count();
     const int mapSize_px = surfaces.casters.texture().width_px();
     if (keeps == Keeps::alpha) {
-        if (stored_.fit({.width_px = mapSize_px,
-                         .height_px = mapSize_px,
-                         .layers = cameras_,
-                         .format = gl::Format::rg32f,
-                         .label = "smoothies/alpha and depth"})) {
-            storedTarget_ = gl::Framebuffer({&stored_}, nullptr, "smoothies, stored");
-        }
+        stored_.fit({.width_px = mapSize_px,
+                     .height_px = mapSize_px,
+                     .layers = cameras_,
+                     .format = gl::Format::rg32f,
+                     .label = "smoothies/alpha and depth"});
+        storedTarget_.fit({&stored_}, nullptr, "smoothies, stored");
         constexpr std::array<float, 4> nothing = {1, std::numeric_limits<float>::max(), 0, 0};
         gl::Pass pass(leastAlpha_);
         pass.into(storedTarget_,
@@ -45,11 +44,11 @@ void SmoothieBuffer::draw(Keeps keeps, const SilhouetteExtractor& silhouettes, c
                          .format = gl::Format::r32ui,
                          .label = "smoothies/deepest edges"};
     spec.height_px = spec.width_px;
-    const bool isNew = deepest_.fit(spec);
+    deepest_.fit(spec);
     spec.format = gl::Format::depth32f;
     spec.label = "smoothies/order";
     order_.fit(spec);
-    if (isNew) deepestTarget_ = gl::Framebuffer({&deepest_}, &order_, "smoothies");
+    deepestTarget_.fit({&deepest_}, &order_, "smoothies");
 
     constexpr std::array<std::uint32_t, 4> noEdge = {0xffffffffu};
     gl::Pass pass(deepestEdge_);

@@ -53,11 +53,11 @@ VolumeCounter::VolumeCounter(Device& device)
 
 void VolumeCounter::allocate(glm::ivec2 size_px) {
     const auto fit = [&](gl::Texture& texture, gl::Format format, std::string_view label) {
-        return texture.fit({.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = label});
+        texture.fit({.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = label});
     };
-    const bool isNew = fit(counts_, gl::Format::r32f, "soft-volumes/counts");
-    if (fit(depth_, gl::Format::depth32f, "soft-volumes/receiver depth") || isNew)
-        framebuffer_ = gl::Framebuffer({&counts_}, &depth_, "soft-volumes/counts");
+    fit(counts_, gl::Format::r32f, "soft-volumes/counts");
+    fit(depth_, gl::Format::depth32f, "soft-volumes/receiver depth");
+    framebuffer_.fit({&counts_}, &depth_, "soft-volumes/counts");
 }
 
 void VolumeCounter::forgetEye() {

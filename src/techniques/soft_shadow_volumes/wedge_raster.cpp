@@ -47,32 +47,34 @@ void WedgeRaster::countAsBlockers(VolumeFrame& frame) {
 
 void WedgeRaster::allocate(glm::ivec2 size_px, bool isTextured, Options options) {
     const auto fit = [&](gl::Texture& texture, gl::Format format, std::string_view label) {
-        return texture.fit({.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = label});
+        texture.fit({.width_px = size_px.x, .height_px = size_px.y, .format = format, .label = label});
     };
     const bool isSplit = layerFormat_ == LayerFormat::splitBytes, isColored = isTextured && !isSplit;
-    if (isColored != (colors_.name() != 0)) layers_ = {};
-    if (fit(layers_, gl::Format::rg32f, "soft-volumes/V-buffer layers")) {
-        fit(evaluations_, gl::Format::r32f, "soft-volumes/wedges a pixel");
-        fit(depthAndMarks_, gl::Format::depth32fStencil8, "soft-volumes/marks");
-        for (gl::Texture* texture : {&colors_, &additiveBytes_, &subtractiveBytes_}) *texture = {};
-        if (isSplit) {
-            fit(additiveBytes_, gl::Format::rgba8, "soft-volumes/additive bytes");
-            fit(subtractiveBytes_, gl::Format::rgba8, "soft-volumes/subtractive bytes");
-            framebuffer_ = gl::Framebuffer({&evaluations_, &additiveBytes_, &subtractiveBytes_},
-                                           &depthAndMarks_, "soft-volumes/V-buffer bytes");
-        } else if (isColored) {
-            fit(colors_, gl::Format::rgba32f, "soft-volumes/V-buffer colours");
-            framebuffer_ = gl::Framebuffer({&evaluations_, &layers_, &colors_}, &depthAndMarks_,
-                                           "soft-volumes/V-buffer layers");
-        } else {
-            framebuffer_ =
-                gl::Framebuffer({&evaluations_, &layers_}, &depthAndMarks_, "soft-volumes/V-buffer layers");
-        }
+    fit(layers_, gl::Format::rg32f, "soft-volumes/V-buffer layers");
+    fit(evaluations_, gl::Format::r32f, "soft-volumes/wedges a pixel");
+    fit(depthAndMarks_, gl::Format::depth32fStencil8, "soft-volumes/marks");
+    if (!isColored) colors_ = {};
+    if (!isSplit) {
+        additiveBytes_ = {};
+        subtractiveBytes_ = {};
     }
-    if (!options.wireframe) {
+    if (isSplit) {
+        fit(additiveBytes_, gl::Format::rgba8, "soft-volumes/additive bytes");
+        fit(subtractiveBytes_, gl::Format::rgba8, "soft-volumes/subtractive bytes");
+        framebuffer_.fit({&evaluations_, &additiveBytes_, &subtractiveBytes_}, &depthAndMarks_,
+                         "soft-volumes/V-buffer bytes");
+    } else if (isColored) {
+        fit(colors_, gl::Format::rgba32f, "soft-volumes/V-buffer colours");
+        framebuffer_.fit({&evaluations_, &layers_, &colors_}, &depthAndMarks_,
+                         "soft-volumes/V-buffer layers");
+    } else {
+        framebuffer_.fit({&evaluations_, &layers_}, &depthAndMarks_, "soft-volumes/V-buffer layers");
+    }
+    if (options.wireframe) {
+        fit(wireframe_, gl::Format::r32f, "soft-volumes/wireframe");
+        wireframeFramebuffer_.fit({&wireframe_}, nullptr, "soft-volumes/wireframe");
+    } else {
         wireframe_ = {};
-    } else if (fit(wireframe_, gl::Format::r32f, "soft-volumes/wireframe")) {
-        wireframeFramebuffer_ = gl::Framebuffer({&wireframe_}, nullptr, "soft-volumes/wireframe");
     }
 }
 
