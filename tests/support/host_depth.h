@@ -45,7 +45,8 @@ class HostDepth : public HostTest {
                               .format = gl::Format(form.format),
                               .label = form.name});
         view.depthTexture = depth_.name();
-        const gl::Framebuffer framebuffer({}, &depth_, form.name);
+        gl::Framebuffer framebuffer;
+        framebuffer.fit({}, &depth_, form.name);
         const Program program(
             "#version 450\nlayout(location = 0) uniform mat4 clipFromMesh;\nlayout(location = 0) in vec3 "
             "position;\n"

@@ -180,6 +180,18 @@ void CasterSoup::noteChanged(const Entry& entry) {
 }
 
 void CasterSoup::update(std::span<const Caster> casters, bool usesStandIns) {
+    try {
+        take(casters, usesStandIns);
+        send();
+    } catch (...) {
+        // Half an update is none: the next one begins with nothing, and nobody has seen what it changes.
+        entries_.clear();
+        revision_ += 2;
+        throw;
+    }
+}
+
+void CasterSoup::take(std::span<const Caster> casters, bool usesStandIns) {
     const glm::dvec3 origin = chooseOrigin(casters);
     const bool moved = origin != originWorld_;
     originWorld_ = origin;
@@ -218,7 +230,6 @@ void CasterSoup::update(std::span<const Caster> casters, bool usesStandIns) {
     for (std::size_t i = count; i < entries_.size(); ++i) noteChanged(entries_[i]);
     entries_.resize(count);
     if (!changed_.empty()) ++revision_;
-    send();
 }
 
 void CasterSoup::send() {

@@ -110,6 +110,7 @@ class CasterSoup {
     };
 
     void noteChanged(const Entry& entry);
+    void take(std::span<const Caster> casters, bool usesStandIns);
     void send();
     void send(Entry& entry);
     void sendNodes(const Entry& entry);
