@@ -11,9 +11,9 @@
 
 namespace penumbra::gl {
 
-/// A buffer that shaders read with imageLoad (readonly uimageBuffer), four words at a time; floats travel as their bits, among
-/// integers. It is an image and no usamplerBuffer because Mesa leaves such a sampler's filters as the program before had them, and
-/// compiles anew for each kind it meets.
+/// A buffer that shaders read with imageLoad (readonly uimageBuffer), four words at a time; floats travel as
+/// their bits, among integers. It is an image and no usamplerBuffer because Mesa leaves such a sampler's
+/// filters as the program before had them, and compiles anew for each kind it meets.
 class TexelBuffer {
   public:
     explicit TexelBuffer(std::string_view label) : label_(label) {}

@@ -150,8 +150,8 @@ TwoTerms fitTwoTerms(const HostDepths& depths, const CasterPicture& picture, con
         result.first = (ac * bb - bc * ab) / determinant;
         result.second = (bc * aa - ac * ab) / determinant;
     }
-    // Explained: to a fiftieth of a pixel, to what slopes between pixels differ from those of small triangles, and to
-    // what depths are rounded by.
+    // Explained: to a fiftieth of a pixel, to what slopes between pixels differ from those of small
+    // triangles, and to what depths are rounded by.
     const double allowed_px = 0.02 + (kind == SmallDifference::offset ? 0.2 * std::abs(result.first) : 0);
     const auto explained = std::ranges::count_if(pixels, [&](const Pixel& pixel) {
         return unexplained(pixel) <= allowed_px * pixel.steepest + tolerance_steps * step;

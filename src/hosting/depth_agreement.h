@@ -38,7 +38,8 @@ enum class SmallDifference {
 /// How much of it, by least squares over pixels inside of surfaces, without those that it does not explain.
 struct TwoTerms {
     double first = 0, second = 0;
-    double share = 0;  ///< of the pixels inside of surfaces, those that it explains; 0 too where little is known
+    /// Of the pixels inside of surfaces, those that it explains; 0 too where little is known.
+    double share = 0;
 };
 TwoTerms fitTwoTerms(const HostDepths& depths, const CasterPicture& picture, const Reading& reading,
                      SmallDifference kind);

@@ -15,7 +15,7 @@ const int profileTypeA = 1;
 const int profileTypeB = 2;
 const int profileTypeC = 3;
 
-/// Points to sum over along an extent of a light that looks 1 wide (extent / distance), where nothing is steep.
+/// Points to sum over along an extent of a light that looks 1 wide (extent / distance), if nothing is steep.
 const float leastPointsPerDistance = 10.0f;
 
 /// The grid of a profile: angles and values are in the buffer `Profile`, verticals, horizontals, candela.
@@ -28,8 +28,8 @@ SHARED_STRUCT ProfileConstants {
     int horizontals;
     float angleScale;  // UsdLux's
     float factor;
-    bool32 isMirrored;   // types A and B: -H as H
-    bool32 isLuminaire;  // of candela by share of area; else a factor of the luminance
+    bool32 isMirrored;        // types A and B: -H as H
+    bool32 isLuminaire;       // of candela by share of area; else a factor of the luminance
     float pointsPerDistance;  // leastPointsPerDistance, or more where candela change steeply
 };
 

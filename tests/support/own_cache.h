@@ -4,8 +4,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-/// Gives this process, and what it starts, a cache home of its own, so that no test depends on what others have left. The driver
-/// keeps its compiled shaders where it had them: making all of them again takes Mesa several seconds a test.
+/// Gives this process, and what it starts, a cache home of its own, so that no test depends on what others
+/// have left. The driver keeps its compiled shaders where it had them: making all of them again takes Mesa
+/// several seconds a test.
 inline void setOwnCache(const std::filesystem::path& folder) {
     const char* cache = std::getenv("XDG_CACHE_HOME");
     const char* home = std::getenv("HOME");

@@ -58,10 +58,10 @@ SHARED_STRUCT ConstructionConstants {
 SHARED_STRUCT PictureConstants {
     LightConstants light;
     int mapCount;
-    bool32 hasSmoothies;    // without: a hard shadow
-    uint capacity;          // edges for each camera
-    float nearestNearness;  // of all blockers that have holes
-    bool32 hasFarthestMaps; // of what may be hidden beneath another caster
+    bool32 hasSmoothies;     // without: a hard shadow
+    uint capacity;           // edges for each camera
+    float nearestNearness;   // of all blockers that have holes
+    bool32 hasFarthestMaps;  // of what may be hidden beneath another caster
 };
 
 #ifdef __cplusplus
