@@ -2,7 +2,6 @@
 // What a light sends to a receiver without shadows, for an emission of 1. Includers have declared `light`
 // (LightingConstants) and the buffer `Profile` of floats, `profileValues`. Light space: see unshadowed.glsl.
 #include "studio/frame/unshadowed.glsl"
-#include "studio/frame/profile.glsl"
 
 const vec3 luminanceOfRec709 = vec3(0.2126, 0.7152, 0.0722);
 
@@ -10,11 +9,14 @@ const vec3 luminanceOfRec709 = vec3(0.2126, 0.7152, 0.0722);
 // once, are spared all others.
 #ifdef ONLY_SHAPE
 const int lightShape = ONLY_SHAPE;
-const bool isProfiled = ONLY_PROFILED != 0;
+const int profileType = ONLY_PROFILE;
+const bool hasEvenAngles = ONLY_EVEN_ANGLES != 0;
 #else
 int lightShape = light.shape;
-bool isProfiled = light.profile.type != noProfile;
+int profileType = light.profile.type;
+const bool hasEvenAngles = false;  // or not known
 #endif
+#include "studio/frame/profile.glsl"
 
 // Irradiance of a light of size zero whose emission is 1 candela or 1 lux.
 float pointIrradiance(vec3 pos, vec3 normal) {
@@ -23,15 +25,20 @@ float pointIrradiance(vec3 pos, vec3 normal) {
     return distance2 > 0.0 ? max(0.0, dot(normal, normalize(towards))) / distance2 : 0.0;
 }
 
-float irradianceBeforeCone(vec3 pos, vec3 normal) {
+// What is behind a flat light, or lies in its plane, sees nothing of it.
+bool isAside(vec3 pos) {
     int shape = lightShape;
     bool behind = pos.z >= 0.0;
-    if ((shape == shapeRect || shape == shapeDisk) && behind && !light.isTwoSided) return 0.0;
-    // What lies in the plane of a flat light sees nothing of it.
+    if ((shape == shapeRect || shape == shapeDisk) && behind && !light.isTwoSided) return true;
     vec2 halfSize_m = shape == shapeRect ? light.halfSize_m : vec2(light.radius_m);
     bool isFlat = (shape == shapeRect || shape == shapeDisk) && !light.isPoint;
-    if (isFlat && abs(pos.z) <= light.planeTolerance * (length(pos) + length(halfSize_m))) return 0.0;
-    if (isProfiled)
+    return isFlat && abs(pos.z) <= light.planeTolerance * (length(pos) + length(halfSize_m));
+}
+
+float irradianceBeforeCone(vec3 pos, vec3 normal) {
+    int shape = lightShape;
+    if (isAside(pos)) return 0.0;
+    if (profileType != noProfile)
         return profiledIrradiance(light.profile, shape, light.isPoint, light.halfSize_m, light.radius_m, pos, normal);
     if (light.isPoint) return pointIrradiance(pos, normal);
     if (shape == shapeRect) return rectIrradiance(pos, normal, light.halfSize_m);

@@ -27,7 +27,8 @@ class PointLighting {
   public:
     explicit PointLighting(Device& device, std::filesystem::path shaderSourceDirectory = {});
 
-    /// What `light` sends to each point, past the scene's casters. Waits for the device. Throws
+    /// What `light` sends to each point, past the scene's casters; cell by cell of a rectangle with a
+    /// profile, where the technique says what is seen of each ("cells"). Waits for the device. Throws
     /// Error::Kind::badArgument where the technique does not answer at points, or states no "error bound".
     std::vector<PointLight> measure(const Points& points, const GpuScene& scene, const Light& light,
                                     Technique& technique);
@@ -36,7 +37,9 @@ class PointLighting {
     /// What a program is made for.
     struct Kind {
         LightShape shape;
-        bool isProfiled, isTextured;
+        int profileType;  ///< noProfile, ...
+        bool hasEvenAngles, isTextured;
+        int cells;  ///< along each side of a rectangle, for which the technique has answered
         auto operator<=>(const Kind&) const = default;
     };
     const gl::Program& programFor(const Kind& kind);

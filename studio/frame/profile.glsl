@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Candela of a profile by direction, as CandelaGrid::at has them: linear between the file's own angles. Includers have
-// declared the buffer `Profile` of floats, `profileValues`.
+// declared the buffer `Profile` of floats, `profileValues`, and say `profileType` and whether it `hasEvenAngles`.
 
 const int mostSteps = 12;  // to find an angle among 2^12
 
 // The angles [first, first + count) of the buffer increase; the index of the last that is not above `angle`, but for
 // the very last.
 int lastNotAbove(int first, int count, float angle) {
+    if (hasEvenAngles) {
+        float least = profileValues[first], most = profileValues[first + count - 1];
+        int at = clamp(int((angle - least) / (most - least) * float(count - 1)), 0, count - 2);
+        // But for rounding.
+        if (at > 0 && angle < profileValues[first + at]) return at - 1;
+        return at + (at < count - 2 && angle >= profileValues[first + at + 1] ? 1 : 0);
+    }
     int low = 0, high = count - 1;
     for (int step = 0; step < mostSteps && high - low > 1; ++step) {
         int middle = (low + high) / 2;
@@ -50,12 +57,12 @@ float profileCandela(ProfileConstants profile, vec3 directionLight) {
     if (gamma < 0.0 || gamma > pi) return 0.0;
 
     float vertical = gamma, horizontal;
-    if (profile.type == profileTypeC) {
+    if (profileType == profileTypeC) {
         horizontal = foldedPlane(profile, c);
     } else {
         vec3 d = vec3(sin(gamma) * vec2(cos(c), sin(c)), -cos(gamma));
-        vertical = profile.type == profileTypeB ? atan(d.x, -d.z) : asin(clamp(d.z, -1.0, 1.0));
-        horizontal = profile.type == profileTypeB ? asin(clamp(-d.y, -1.0, 1.0)) : atan(-d.y, d.x);
+        vertical = profileType == profileTypeB ? atan(d.x, -d.z) : asin(clamp(d.z, -1.0, 1.0));
+        horizontal = profileType == profileTypeB ? asin(clamp(-d.y, -1.0, 1.0)) : atan(-d.y, d.x);
         if (profile.isMirrored) horizontal = abs(horizontal);
     }
     vec2 v = between(0, profile.verticals, vertical);

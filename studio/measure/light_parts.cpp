@@ -20,10 +20,10 @@ double distanceOf(const glm::dvec3& posLight, const glm::dvec2& halfSize_m) {
 
 }  // namespace
 
-std::vector<Light> partsOf(const Light& light, const std::vector<MeasuringPoint>& points) {
+glm::ivec2 partsWanted(const Light& light, const std::vector<MeasuringPoint>& points) {
     const AreaLight& shape = light.shape;
     if (!light.profile || shape.shape != LightShape::rect || shape.width_m <= 0 || shape.height_m <= 0)
-        return {light};
+        return {1, 1};
     const glm::dmat4 worldFromLight(fromPenumbra(shape.worldFromLight));
     const glm::dmat4 lightFromWorld = glm::inverse(worldFromLight);
     const glm::dvec2 size_m(shape.width_m, shape.height_m);
@@ -34,8 +34,15 @@ std::vector<Light> partsOf(const Light& light, const std::vector<MeasuringPoint>
     }
     const double widest_rad = widestPart_rad(*light.profile);
     const glm::dvec2 wanted = size_m / std::max(nearest_m * widest_rad, 1e-9);
-    const glm::ivec2 counts(std::clamp(int(std::ceil(std::min(wanted.x, 1e6))), 1, mostPartsAlong),
-                            std::clamp(int(std::ceil(std::min(wanted.y, 1e6))), 1, mostPartsAlong));
+    return {std::clamp(int(std::ceil(std::min(wanted.x, 1e6))), 1, mostPartsAlong),
+            std::clamp(int(std::ceil(std::min(wanted.y, 1e6))), 1, mostPartsAlong)};
+}
+
+std::vector<Light> partsOf(const Light& light, const glm::ivec2& counts) {
+    if (counts == glm::ivec2(1)) return {light};
+    const AreaLight& shape = light.shape;
+    const glm::dmat4 worldFromLight(fromPenumbra(shape.worldFromLight));
+    const glm::dvec2 size_m(shape.width_m, shape.height_m);
     std::vector<Light> parts;
     for (int y = 0; y < counts.y; ++y) {
         for (int x = 0; x < counts.x; ++x) {

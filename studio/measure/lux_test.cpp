@@ -258,6 +258,44 @@ std::shared_ptr<const LightProfile> steepProfile() {
     return profile;
 }
 
+/// One whose angles are evenly spaced.
+std::shared_ptr<const LightProfile> evenProfile() {
+    auto profile = std::make_shared<LightProfile>();
+    for (int plane = 0; plane <= 90; plane += 30) profile->grid.horizontals_deg.push_back(plane);
+    for (int gamma = 0; gamma <= 90; gamma += 5) profile->grid.verticals_deg.push_back(gamma);
+    for (const double plane_deg : profile->grid.horizontals_deg) {
+        for (const double gamma_deg : profile->grid.verticals_deg) {
+            const double cosine = std::max(std::cos(glm::radians(gamma_deg)), 0.0);
+            profile->grid.candela.push_back(float(1000 * std::pow(cosine, 2 + plane_deg / 45)));
+        }
+    }
+    return profile;
+}
+
+/// `exact` answers for all of a panel's cells at once, the reference for parts of it by themselves.
+TEST_F(LuxTest, CellsOfAPanelSendWhatItsPartsDo) {
+    SceneBuilder scene("panel");
+    scene.ground(20);
+    scene.place("sheet", scene.mesh("sheet", plane(8, 16), glm::vec3(0.5f)),
+                penumbra::studio::at({-4, 1, 0}));
+    Light panel = rectLight("panel", 0.9f, 0.9f, {0.2f, height_m, 0}, {0.2f, 0, 0}, 1);
+    panel.emission = {Emission::Unit::candela, glm::vec3(1)};
+    panel.profile = ProfiledEmission{.profile = evenProfile(), .isLuminaire = true};
+    scene.light(panel);
+    std::vector<MeasuringPoint> points;
+    for (int i = 0; i < 24; ++i) points.push_back({{-0.9 + 0.07 * i, 0, 0.1 * (i % 5) - 0.2}});
+    const Scene built = std::move(scene).build();
+    const Measurement exact = measureAt(built, points);
+    const Measurement truth = measureWith(
+        "reference", built, at(points), {{"samples", "16384"}, {"weight", "irradiance"}, {"cache", "false"}});
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const MeasuredValue &seen = exact.values[i], &rays = truth.values[i];
+        EXPECT_NEAR(seen.lux, rays.lux, double(seen.bound_lux + rays.bound_lux) + 1e-3 * double(rays.lux))
+            << points[i].posWorld.x;
+    }
+    EXPECT_GT(truth.values.back().lux, 10 * truth.values[4].lux) << "the sheet hides nothing";
+}
+
 TEST_F(LuxTest, OfFourPanelsWithAProfileBehindAnEdgeIsTheirIntegral) {
     const auto profile = steepProfile();
     SceneBuilder scene("office");

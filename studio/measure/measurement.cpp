@@ -74,42 +74,52 @@ std::vector<std::size_t> orderOf(const Measurement& measurement) {
     return order;
 }
 
-/// A technique's `samples` while the parts of a light share them.
-class SharedSamples {
+/// A technique's number, of a parameter that it may have, while it is another.
+class Lent {
   public:
-    explicit SharedSamples(Technique& technique) : technique_(technique) {
+    Lent(Technique& technique, std::string_view name) : technique_(technique), name_(name) {
         for (const ParameterDescription& parameter : describeParameters(technique)) {
             if (parameter.name != name || parameter.kind != ParameterDescription::Kind::integer) continue;
-            std::from_chars(parameter.value.data(), parameter.value.data() + parameter.value.size(), all_);
+            std::from_chars(parameter.value.data(), parameter.value.data() + parameter.value.size(), own_);
+            most_ = int(parameter.max);
         }
-        set_ = all_;
+        set_ = own_;
     }
-    SharedSamples(const SharedSamples&) = delete;
-    SharedSamples& operator=(const SharedSamples&) = delete;
-    ~SharedSamples() { share(1); }
+    Lent(const Lent&) = delete;
+    Lent& operator=(const Lent&) = delete;
+    ~Lent() { set(own_); }
 
-    void share(std::size_t parts) {
-        constexpr int least = 64;  // of a part, or what was asked for where that is less
-        const int wanted = parts == 1 ? all_ : std::max(all_ / int(parts), std::min(all_, least));
-        if (wanted != set_) setParameter(technique_, name, std::to_string(wanted));
-        set_ = wanted;
+    /// As the technique came; 0 where it has no such parameter.
+    int own() const { return own_; }
+    int most() const { return most_; }
+    void set(int value) {
+        if (value != set_) setParameter(technique_, name_, std::to_string(value));
+        set_ = value;
     }
 
   private:
-    static constexpr std::string_view name = "samples";
     Technique& technique_;
-    int all_ = 0, set_ = 0;
+    std::string_view name_;
+    int own_ = 0, most_ = 0, set_ = 0;
 };
 
 /// What all of a light sends to the points of a block.
 class LightMeter {
   public:
     LightMeter(PointLighting& lighting, const GpuScene& scene, const PointSet& set, Technique& technique)
-        : scene_(scene), set_(set), technique_(technique), lighting_(lighting), samples_(technique) {}
+        : scene_(scene),
+          set_(set),
+          technique_(technique),
+          lighting_(lighting),
+          samples_(technique, "samples"),
+          cells_(technique, "cells") {}
 
     std::vector<PointLight> measure(const Points& points, const Light& light) {
-        const std::vector<Light> parts = partsOf(light, set_.points);
-        samples_.share(parts.size());
+        const glm::ivec2 wanted = partsWanted(light, set_.points);
+        const int cells = cellsFor(light, wanted);
+        const std::vector<Light> parts = partsOf(light, (wanted + cells - 1) / cells);
+        shareSamples(int(parts.size()));
+        if (cells_.own() > 0) cells_.set(cells);
         std::vector<PointLight> sum(points.count());
         for (const Light& part : parts) {
             const std::vector<PointLight> added = lighting_.measure(points, scene_, part, technique_);
@@ -124,11 +134,25 @@ class LightMeter {
     }
 
   private:
+    /// Along each side of the light, where the technique answers for cells of it at once. (None does for
+    /// those of textured lights, and past panes.)
+    int cellsFor(const Light& light, const glm::ivec2& wanted) const {
+        const bool hasColor = light.texture >= 0 || needsColor(light.shape, scene_.casters());
+        return hasColor ? 1 : std::clamp(std::max(wanted.x, wanted.y), 1, std::max(cells_.most(), 1));
+    }
+
+    /// Parts of a light share its samples.
+    void shareSamples(int parts) {
+        constexpr int least = 64;  // of a part, or what was asked for where that is less
+        samples_.set(parts == 1 ? samples_.own()
+                                : std::max(samples_.own() / parts, std::min(samples_.own(), least)));
+    }
+
     const GpuScene& scene_;
     const PointSet& set_;
     Technique& technique_;
     PointLighting& lighting_;
-    SharedSamples samples_;
+    Lent samples_, cells_;
 };
 
 Points pointsOf(Device& device, const PointSet& set, std::span<const std::size_t> which) {

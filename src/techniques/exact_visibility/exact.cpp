@@ -80,6 +80,11 @@ void ExactVisibility::describe(ParameterVisitor& visitor) {
     visitor.choice({.name = "weight",
                     .help = "what each part of the light counts: its area, or what it sends to the surface"},
                    weight_, weights);
+    visitor.integer({.name = "cells",
+                     .unit = "along a side",
+                     .help = "of a rectangle that is not textured, past casters that are no panes: what is "
+                             "seen of each stands in the inspected texture 'cells'"},
+                    cells_, {1, EXACT_MOST_CELLS});
     visitor.boolean(
         {.name = "stand_ins",
          .help = "coarser geometry for what is far from whom it shadows, where that moves no edge "
@@ -111,6 +116,7 @@ const gl::Program& ExactVisibility::resolveFor(const ResolveKind& kind) {
     if (kind.isOfParts) defines.emplace_back("WITH_PARTS");
     if (kind.hasHoles) defines.emplace_back("WITH_HOLES");
     if (kind.isUneven) defines.emplace_back("WITH_WEIGHTS");
+    if (kind.cells > 1) defines.emplace_back("CELLS " + std::to_string(kind.cells));
     if (kind.paneSteps > 0) defines.emplace_back("PANE_STEPS " + std::to_string(kind.paneSteps));
     return resolve_.emplace(kind, gl::Program(device_.shaders, {resolveShader}, std::move(defines)))
         .first->second;
@@ -144,6 +150,12 @@ int ExactVisibility::roundsForPanes(std::size_t rows) const {
                         double(soup_.paneTriangleCount()) * (perTriangle + perPaneTriangle) +
                         perRow * double(rows) + 10 * EXACT_PANE_SAMPLES;
     return int(std::min(1 + std::ceil(work / (roundWork_ - perRound)), mostRounds));
+}
+
+int ExactVisibility::cellsFor(const AreaLight& light) const {
+    const bool hasCells = light.shape == LightShape::rect && hasSize(light) && light.radianceTexture == 0 &&
+                          soup_.paneTriangleCount() == 0;
+    return hasCells ? cells_ : 1;
 }
 
 /// How often it takes to take all samples of a lattice through panes, if there are any.
@@ -185,14 +197,15 @@ void ExactVisibility::describeKey(const Stage& stage, const FrameLight& asked) {
     appendBytes(key_, stage.hasCasters);
     appendBytes(key_, samples_);
     appendBytes(key_, weight_);
+    appendBytes(key_, cells_);
     appendBytes(key_, usesStandIns_);
 }
 
 /// Whether tiles may keep their answers: the camera, the light and the options are those of the last frame,
-/// and casters that are not are known.
+/// and casters that are not are known. (Answers for cells are not kept.)
 bool ExactVisibility::canKeep(const Stage& stage, const FrameLight& asked, const LightAnswer& answer) {
     describeKey(stage, asked);
-    return isSameView_ && key_ == answer.key &&
+    return isSameView_ && cells_ == 1 && key_ == answer.key &&
            (!stage.hasCasters || soup_.tellsChangesSince(answer.casterRevision));
 }
 
@@ -251,7 +264,7 @@ void ExactVisibility::answer(const Stage& stage, const FrameLight& asked, std::s
     const bool keeps = canKeep(stage, asked, answer);
     answer.key.clear();  // until it is there
     answer.fit(asked.out->width_px(), asked.out->height_px(),
-               asked.out->colored() ? gl::Format::rgba16f : gl::Format::r32f);
+               asked.out->colored() ? gl::Format::rgba16f : gl::Format::r32f, cellsFor(light));
     answer_ = &answer;
     const gl::TextureRef visibility = keeps ? answer.visibility.ref() : imageOf(*asked.out);
     const ExactLight described = describeLight(light, stage.originWorld, latticesFor(light), weight_ != 0,
@@ -349,7 +362,8 @@ void ExactVisibility::resolve(const Stage& stage, const AreaLight& light, const 
         turnRounds = std::max(turnRounds, paneSteps > 0 ? roundsForPanes(rows) : 0);
         rounds = windows * (1 + paneSteps) * groups * turnRounds;
     }
-    const bool isUneven = isCone || weight_ != 0 || light.radianceTexture != 0;
+    const int cells = cellsFor(light);
+    const bool isUneven = isCone || weight_ != 0 || light.radianceTexture != 0 || cells > 1;
     const auto pixels =
         std::size_t(answer_->errorBound.width_px()) * std::size_t(answer_->errorBound.height_px());
     const std::size_t stateWords = EXACT_STATE_WORDS + rows + (paneSteps > 0 ? EXACT_PANE_WORDS : 0);
@@ -360,7 +374,7 @@ void ExactVisibility::resolve(const Stage& stage, const AreaLight& light, const 
     rounds_.clear();
     const gl::Buffer& busy = stage.view.isOfPoints ? parts_ : busy_;
     gl::Pass pass(
-        resolveFor({int(rows), stage.view.isOfPoints, soup_.maskedCount() > 0, isUneven, paneSteps}));
+        resolveFor({int(rows), stage.view.isOfPoints, soup_.maskedCount() > 0, isUneven, cells, paneSteps}));
     pass.inOrder()
         .bind(view_)
         .bind("FrameBlock", frame_)
@@ -375,6 +389,7 @@ void ExactVisibility::resolve(const Stage& stage, const AreaLight& light, const 
         .bind("Rounds", rounds_)
         .bind("visibility", visibility)
         .bind("errorBound", answer_->errorBound);
+    if (cells > 1) pass.bind("cells", answer_->cells);
     if (pass.has("Masks")) pass.bind("Masks", masks_);
     if (pass.has("Panes")) pass.bind("Panes", panes_);
     bindMaskGroup(pass, maskTextures_, 0);
@@ -410,6 +425,9 @@ int ExactVisibility::askedRound(int next, int count) const {
 
 void ExactVisibility::inspect(InspectionVisitor& visitor) const {
     visitor.texture({.name = "error bound", .texture = answer_ != nullptr ? answer_->errorBound.name() : 0});
+    if (answer_ != nullptr && answer_->cells.name() != 0)
+        visitor.texture(
+            {.name = "cells", .texture = answer_->cells.name(), .layers = answer_->cells.layers()});
 }
 
 Statistics ExactVisibility::statistics() const {

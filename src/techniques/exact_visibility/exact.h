@@ -63,6 +63,7 @@ class ExactVisibility final : public Technique {
         bool isOfParts;  ///< parts of tiles are busy
         bool hasHoles;   ///< casters have alpha masks
         bool isUneven;   ///< samples do not count alike
+        int cells;       ///< of a rectangle, along each side, that are answered for, too
         int paneSteps;   ///< in which samples are taken through panes
         auto operator<=>(const ResolveKind&) const = default;
     };
@@ -92,12 +93,14 @@ class ExactVisibility final : public Technique {
     int askedRound(int next, int count) const;
     int roundsFor(std::span<const LightLattice> lattices, std::size_t special) const;
     int roundsForPanes(std::size_t rows) const;
+    int cellsFor(const AreaLight& light) const;
     int paneStepsFor(std::span<const LightLattice> lattices) const;
     const std::vector<LightLattice>& latticesFor(const AreaLight& light);
     void sendMasks();
 
     int samples_ = 64;
     int weight_ = 0;
+    int cells_ = 1;
     bool usesStandIns_ = false;
     int tileCapacity_ = 512;
     int roundWork_;

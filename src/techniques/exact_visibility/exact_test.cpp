@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studio/frame/frame_renderer.h"
 #include "studio/scene/builtin/builtin.h"
 #include "tests/support/technique_test.h"
 
@@ -36,6 +37,51 @@ TEST_F(ExactVisibilityTest, SixtyFourSamplesAreNearTheReferenceForEveryShapeOfLi
         light.shape.angle_rad = 0.1f;
     });
     EXPECT_LE(judge(truth(distant, size, 512), exact(distant)).penumbra_rmse, 0.025);
+}
+
+// In four lattices, of which each adds to the cells.
+TEST_F(ExactVisibilityTest, CellsOfARectangleAddUpToAllOfIt) {
+    class Cells final : public InspectionVisitor {
+      public:
+        void texture(const InspectedTexture& inspected) override {
+            if (inspected.name == "cells") found = inspected;
+        }
+        InspectedTexture found;
+    } cells;
+    const Scene scene = makeBuiltin("textured-window");
+    const Scene plain = makeBuiltin("half-plane");
+    const auto technique = workbench().makeTechnique("exact");
+    setParameter(*technique, "samples", "1024");
+    setParameter(*technique, "cells", "3");
+    render(*technique, scene, size);
+    technique->inspect(cells);
+    EXPECT_EQ(cells.found.texture, 0u) << "a textured light has none";
+
+    const LightResult whole = render(*technique, plain, size);
+    technique->inspect(cells);
+    ASSERT_EQ(cells.found.layers, 9);
+    const Image texels = readTexture(cells.found.texture, size.width_px, 9 * size.height_px, 2);
+    const std::size_t pixels = whole.visibility.values.size();
+    std::size_t counted = 0, uneven = 0;
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+        float seen = 0, all = 0, least = 1, most = 0;
+        for (std::size_t cell = 0; cell < 9; ++cell) {
+            // Pictures are read from the top, so that the last layer is the first.
+            const float* const weights = &texels.values[2 * ((8 - cell) * pixels + pixel)];
+            seen += weights[0];
+            all += weights[1];
+            if (weights[1] == 0) continue;
+            least = std::min(least, weights[0] / weights[1]);
+            most = std::max(most, weights[0] / weights[1]);
+        }
+        if (all == 0) continue;
+        ++counted;
+        uneven += least == 0 && most == 1 ? 1 : 0;
+        EXPECT_NEAR(whole.visibility.values[pixel], seen / all, 1e-6f);
+    }
+    EXPECT_GT(counted, 200u);
+    EXPECT_GT(uneven, 50u) << "an edge hides some cells, and others not";
+    EXPECT_EQ(exact(plain, {{"samples", "1024"}}).visibility.values, whole.visibility.values);
 }
 
 // Thin and far, thick and close to the blockers, seen from past an end.

@@ -13,13 +13,23 @@ LightAnswer::LightAnswer() : weights(sizeof(ExactWeights), "exact/weights") {
     weights.clear();
 }
 
-void LightAnswer::fit(int width_px, int height_px, gl::Format format) {
+void LightAnswer::fit(int width_px, int height_px, gl::Format format, int cellsAlong) {
     visibility.fit(
         {.width_px = width_px, .height_px = height_px, .format = format, .label = "exact/kept visibility"});
     errorBound.fit({.width_px = width_px,
                     .height_px = height_px,
                     .format = gl::Format::r16f,
                     .label = "exact/error bound"});
+    if (cellsAlong == 1) {
+        cells = {};
+    } else {
+        cells.fit({.width_px = width_px,
+                   .height_px = height_px,
+                   .layers = cellsAlong * cellsAlong,
+                   .format = gl::Format::rg32f,
+                   .label = "exact/cells"});
+        cells.clear();
+    }
     tileCount = std::size_t((width_px + EXACT_TILE - 1) / EXACT_TILE) *
                 std::size_t((height_px + EXACT_TILE - 1) / EXACT_TILE);
     tiles.reserve(tileCount * sizeof(TileList), "exact/tiles");
@@ -28,9 +38,10 @@ void LightAnswer::fit(int width_px, int height_px, gl::Format format) {
 
 std::size_t LightAnswer::size_bytes() const {
     const auto pixels = std::size_t(visibility.width_px()) * std::size_t(visibility.height_px());
-    const std::size_t visibility_bytes = visibility.format() == gl::Format::r32f ? 4 : 8, bound_bytes = 2;
-    return pixels * (visibility_bytes + bound_bytes) + tiles.size_bytes() + madeAt.size_bytes() +
-           weights.size_bytes();
+    const std::size_t visibility_bytes = visibility.format() == gl::Format::r32f ? 4 : 8, bound_bytes = 2,
+                      cell_bytes = 8;
+    return pixels * (visibility_bytes + bound_bytes + cell_bytes * std::size_t(cells.layers())) +
+           tiles.size_bytes() + madeAt.size_bytes() + weights.size_bytes();
 }
 
 TileCounts LightAnswer::countTiles() const {

@@ -26,13 +26,15 @@ struct LightAnswer {
     std::uint64_t casterRevision = 0;  ///< CasterSoup's
     gl::Texture visibility;            ///< of tiles that `madeAt` names
     gl::Texture errorBound;            ///< of all
-    gl::Buffer tiles;                  ///< a TileList each
-    gl::Buffer madeAt;                 ///< their revisions, plus 1; 0: there is no answer
-    gl::Buffer weights;                ///< of a textured light's samples, and when they changed
+    gl::Texture cells;   ///< of a rectangle, a layer each, where they were asked for (cells.glsl)
+    gl::Buffer tiles;    ///< a TileList each
+    gl::Buffer madeAt;   ///< their revisions, plus 1; 0: there is no answer
+    gl::Buffer weights;  ///< of a textured light's samples, and when they changed
     std::size_t tileCount = 0;
 
     LightAnswer();
-    void fit(int width_px, int height_px, gl::Format format);
+    /// `cellsAlong` cells along each side of the light; none where it is 1.
+    void fit(int width_px, int height_px, gl::Format format, int cellsAlong);
     std::size_t size_bytes() const;
     /// These wait for the device.
     TileCounts countTiles() const;

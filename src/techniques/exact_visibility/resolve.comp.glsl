@@ -3,7 +3,7 @@
 #extension GL_ARB_shader_group_vote : enable
 // For each receiver of a busy tile, the samples of the light that no candidate of its tile hides. Defines: ROWS, the rows
 // of a lattice; WITH_PARTS, where parts of tiles are busy; WITH_HOLES, where casters have alpha masks; WITH_WEIGHTS, where samples
-// do not count alike; PANE_STEPS, where casters let light through, how often samples are taken until there are no more.
+// do not count alike; CELLS, along each side of a rectangle that are answered for, too; PANE_STEPS, where casters let light through, how often samples are taken until there are no more.
 // (llvmpipe runs both sides of a branch, and every loop once.)
 layout(local_size_x = 8, local_size_y = 8) in;
 #ifndef ROWS
@@ -60,6 +60,9 @@ uint unlit[ROWS];
 uint spot[ROWS];
 
 #include "src/techniques/exact_visibility/blockers.glsl"
+#ifdef CELLS
+#include "src/techniques/exact_visibility/cells.glsl"
+#endif
 #include "src/techniques/exact_visibility/sums.glsl"
 #include "src/techniques/exact_visibility/progress.glsl"
 
@@ -296,6 +299,9 @@ void main() {
     TileList list = tileLists[tileIndex];
     Leeway leeway = Leeway(list.low, list.high, list.leewayPerMetre);
 
+#ifdef CELLS
+    beginCells();
+#endif
 #ifdef PANE_STEPS
     beginPanes();
 #endif
@@ -433,6 +439,9 @@ void main() {
     }
 
     if (!inside) return;
+#ifdef CELLS
+    saveCells(pixel);
+#endif
     if (isPaused) {
         save(base, progress, sums);
         int next = 3 * roundFor(progress.part % round_.groups);

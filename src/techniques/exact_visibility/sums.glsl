@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a receiver sees of the light, added up over samples. Includer defines ROWS, unlit[], hidden[], weights[] and radiance.
+// What a receiver sees of the light, added up over samples. Includer defines ROWS, unlit[], hidden[], weights[] and radiance,
+// and includes cells.glsl where CELLS is defined.
 
 vec2 uvOf(vec2 ij, vec2 offset) {
     vec2 p = ij - offset;
@@ -39,8 +40,12 @@ void addWeights(inout Sums sums, SeenLight seen, Patch patch_, vec3 normal, int 
             int i = findLSB(bits);
             vec2 uv = uvOf(vec2(i, j), offset);
             vec3 weight = weightOf(seen, patch_, normal, uv, weightIndex(lattice, i, j), isOnWhole);
+            bool isSeen = (hidden[j] >> uint(i) & 1u) == 0u;
             sums.whole += weight;
-            sums.seen += (hidden[j] >> uint(i) & 1u) == 0u ? weight : vec3(0.0);
+            sums.seen += isSeen ? weight : vec3(0.0);
+#ifdef CELLS
+            addToCell(onLight(patch_, uv), weight.r, isSeen);
+#endif
         }
     }
 }
