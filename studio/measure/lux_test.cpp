@@ -127,6 +127,26 @@ TEST_F(LuxTest, OfATubeOverAPlane) {
     }
 }
 
+TEST_F(LuxTest, HalfBehindAPane) {
+    Light rect = downwards(LightShape::rect);
+    rect.shape.width_m = 1.2f;
+    rect.shape.height_m = 0.6f;
+    SceneBuilder scene = withGround(rect);
+    // Below the half of the light that lies towards +X, seen from the origin.
+    scene.place("pane", scene.mesh("pane", plane(2, 2), glm::vec3(1)), studio::at({1, 1, 0}));
+    const glm::vec3 passes(0.5f, 0.8f, 0.25f);
+    const Scene behind = withMoment(std::move(scene).build(), [&](SceneMoment& moment) {
+        moment.instances.back().transmittance = passes;
+    });
+    const double luminanceThatPasses = glm::dot(passes, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    const double open = 4 * belowCorner(0.6, 0.3, height_m), truth = open * (1 + luminanceThatPasses) / 2;
+    const Settings few = {{"samples", "64"}, {"weight", "irradiance"}};
+    const Measurement measured = measureWith("exact", behind, at({{{0, 0, 0}, {0, 1, 0}}}), few);
+    // One sample of the 64 may lie at the pane's edge.
+    const double ofSample = open * (1 - luminanceThatPasses) / 64;
+    EXPECT_NEAR(measured.values[0].lux, truth, tolerance * truth + ofSample);
+}
+
 TEST_F(LuxTest, ProgressGoesOnToItsEnd) {
     const Scene scene = makeBuiltin("many-lights");
     const SceneMoment moment = scene.at(0);
