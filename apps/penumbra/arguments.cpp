@@ -54,6 +54,14 @@ std::vector<std::string> namesIn(std::span<const std::pair<std::string_view, Val
     return names;
 }
 
+/// The value of a flag that was checked to be one of `table`, if it was given.
+template <typename Value>
+std::optional<Value> namedIn(std::span<const std::pair<std::string_view, Value>> table,
+                             const std::optional<std::string>& name) {
+    if (!name) return {};
+    return std::ranges::find(table, *name, &std::pair<std::string_view, Value>::first)->second;
+}
+
 void addFileFlags(CLI::App& command, SceneArguments& arguments) {
     command.add_option("--lights", arguments.lightsFile,
                        "lights from this file instead of SCENE.lights.json");
@@ -64,17 +72,19 @@ void addFileFlags(CLI::App& command, SceneArguments& arguments) {
                     "which animations play, by index (0,2; -1: none); else all that move different things")
         ->delimiter(',')
         ->allow_extra_args(false);
-    command.add_option("--unit", arguments.unit, "of the file's coordinates, which glTF counts in metres")
-        ->check(CLI::IsMember(namesIn(lengthUnits_m())))
-        ->capture_default_str();
-    command.add_option("--up", arguments.up, "which axis of the file points up; in glTF Y does")
-        ->check(CLI::IsMember({"y", "z"}))
-        ->capture_default_str();
+    command
+        .add_option("--unit", arguments.unit,
+                    "of the file's coordinates; else what the file of lights says, else m as in glTF")
+        ->check(CLI::IsMember(namesIn(lengthUnits_m())));
+    command
+        .add_option("--up", arguments.up,
+                    "which axis of the file points up; else what the file of lights says, else y as in glTF")
+        ->check(CLI::IsMember(namesIn(upAxisNames())));
     command
         .add_option("--glass", arguments.glass,
-                    "clear: glass lets light through; tinted: it takes its share; blocks: it casts shadows")
-        ->check(CLI::IsMember(namesIn(glassNames())))
-        ->capture_default_str();
+                    "clear: glass lets light through; tinted: it takes its share; blocks: it casts shadows; "
+                    "else what the file of lights says, else clear")
+        ->check(CLI::IsMember(namesIn(glassNames())));
     command.add_option("--light-radius", arguments.lightRadius_m, "metres: for lamps that have no size")
         ->check(CLI::Range(1e-4f, 1e4f));
     command
@@ -154,13 +164,11 @@ void SceneArguments::addFlagsTo(CLI::App& command) {
 }
 
 OpenOptions SceneArguments::openOptions() const {
-    const auto unit_m = std::ranges::find(lengthUnits_m(), unit, &std::pair<std::string_view, double>::first);
-    const auto named = std::ranges::find(glassNames(), glass, &std::pair<std::string_view, Glass>::first);
     OpenOptions options{.sun = sun.option(),
                         .scene = sceneIndex,
-                        .glass = named->second,
-                        .unit_m = unit_m->second,
-                        .up = up == "y" ? UpAxis::y : UpAxis::z,
+                        .reading = {.unit_m = namedIn(lengthUnits_m(), unit),
+                                    .up = namedIn(upAxisNames(), up),
+                                    .glass = namedIn(glassNames(), glass)},
                         .lightSizes = {lightRadius_m, glm::radians(sunAngle_deg)}};
     if (animations == std::vector{-1})
         options.animations.emplace();

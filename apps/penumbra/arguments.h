@@ -36,7 +36,7 @@ struct SceneArguments {
     float fov_deg = 40;
     std::optional<float> orthoHeight_m;
     std::optional<int> sceneIndex;
-    std::string glass = "clear", unit = "m", up = "y";
+    std::optional<std::string> glass, unit, up;  ///< unset: as the file of lights says
     float lightRadius_m = 0, sunAngle_deg = 0;
     std::vector<int> animations;  ///< empty: not asked for; {-1}: none
     double time_s = 0;

@@ -54,28 +54,29 @@ void light(Scene& scene, const py::sequence& lights, std::vector<SurfaceRule> no
     applySidecar(scene, sidecar, std::filesystem::current_path());
 }
 
-/// One of `legal` by name. Throws UsageError.
+/// One of `legal` by name, if it is given. Throws UsageError.
 template <typename Value>
-Value oneOf(std::string_view what, std::string_view name,
-            std::span<const std::pair<std::string_view, Value>> legal) {
+std::optional<Value> oneOf(std::string_view what, const std::optional<std::string>& name,
+                           std::span<const std::pair<std::string_view, Value>> legal) {
+    if (!name) return {};
     std::vector<std::string_view> names;
     for (const auto& [known, value] : legal) {
-        if (known == name) return value;
+        if (known == *name) return value;
         names.push_back(known);
     }
-    throw UsageError(fmt::format("{}='{}' is none of: {}", what, name, fmt::join(names, ", ")));
+    throw UsageError(fmt::format("{}='{}' is none of: {}", what, *name, fmt::join(names, ", ")));
 }
 
 ScenePointer open(const std::filesystem::path& name, const std::optional<std::filesystem::path>& lights,
                   std::optional<int> scene, const std::optional<std::vector<int>>& animations,
-                  const std::string& glass, const std::string& unit, const std::string& up) {
-    constexpr std::pair<std::string_view, UpAxis> axes[] = {{"y", UpAxis::y}, {"z", UpAxis::z}};
+                  const std::optional<std::string>& glass, const std::optional<std::string>& unit,
+                  const std::optional<std::string>& up) {
     const OpenOptions options{.lightsFile = lights,
                               .animations = animations,
                               .scene = scene,
-                              .glass = oneOf<Glass>("glass", glass, glassNames()),
-                              .unit_m = oneOf<double>("unit", unit, lengthUnits_m()),
-                              .up = oneOf<UpAxis>("up", up, axes)};
+                              .reading = {.unit_m = oneOf("unit", unit, lengthUnits_m()),
+                                          .up = oneOf("up", up, upAxisNames()),
+                                          .glass = oneOf("glass", glass, glassNames())}};
     auto opened = std::make_shared<Scene>(openScene(name.string(), options));
     warn(*opened);
     return opened;
@@ -154,8 +155,8 @@ Raises InputError ("lights:2: ..." is of the second light).)");
 
     module.def("scenes", &builtins, "The built-in scenes: dict of name to what it shows.");
     module.def("open_scene", &open, py::arg("name"), py::kw_only(), py::arg("lights") = py::none(),
-               py::arg("scene") = py::none(), py::arg("animations") = py::none(), py::arg("glass") = "clear",
-               py::arg("unit") = "m", py::arg("up") = "y",
+               py::arg("scene") = py::none(), py::arg("animations") = py::none(), py::arg("glass") = py::none(),
+               py::arg("unit") = py::none(), py::arg("up") = py::none(),
                R"(Opens a glTF 2.0 file (.gltf, .glb), or the built-in scene of that name (see scenes()).
 
 lights: a file of lights (docs/lights.md) instead of NAME.lights.json beside the scene.
@@ -163,6 +164,7 @@ scene: which of the file's scenes, by index; its default without.
 animations: indices of those that play together, [] for none; without, all that move different things.
 glass: "clear" lets light through, "tinted" takes its share of it, "blocks" casts shadows.
 unit: of the file's coordinates: "mm", "cm", "m", "in", "ft". up: its axis that points up, "y" or "z".
+  Without these three, what the file of lights says counts, else "clear", "m", "y".
 
 A scene without a light gets a key light, one without a camera gets one; Python's warnings say so, and all that is odd.
 Raises InputError, which names the file, the place and the remedy.)");

@@ -98,7 +98,7 @@ TEST_F(DefaultCameraField, MillimetresWithZUp) {
                                                warning.find("--up z") != std::string::npos;
                                     }),
               2);
-    const Scene scene = openScene(file, {.unit_m = 1e-3, .up = UpAxis::z});
+    const Scene scene = openScene(file, {.reading = {.unit_m = 1e-3, .up = UpAxis::z}});
     const Bounds before = asMetres.at(0).bounds, bounds = scene.at(0).bounds;
     EXPECT_NEAR(bounds.max.y, 1e-3f * before.max.z, 1e-5f);
     EXPECT_NEAR(bounds.max.x, 1e-3f * before.max.x, 1e-5f);

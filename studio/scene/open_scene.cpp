@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <memory>
 #include <string_view>
@@ -81,7 +80,7 @@ Scene openBuiltin(const std::string& name, const OpenOptions& options) {
     return scene;
 }
 
-Scene openFile(const fs::path& file, const OpenOptions& options) {
+Scene openFile(const fs::path& file, const OpenOptions& options, const ModelReading& reading) {
     std::error_code error;
     if (fs::is_directory(file, error))
         throw InputError(fmt::format("'{}' is a directory: name a .gltf or .glb file in it", file.string()));
@@ -101,62 +100,49 @@ Scene openFile(const fs::path& file, const OpenOptions& options) {
                                      file.string(), wayToGltf(file)));
     GltfOptions gltf;
     gltf.scene = options.scene;
-    gltf.glass = options.glass;
-    gltf.unit_m = options.unit_m;
-    gltf.up = options.up;
+    gltf.glass = reading.glass.value_or(gltf.glass);
+    gltf.unit_m = reading.unit_m.value_or(gltf.unit_m);
+    gltf.up = reading.up.value_or(gltf.up);
     gltf.animations = options.animations;
     Scene scene = loadGltf(file, gltf);
     const SceneMoment start = scene.at(0);
-    if (options.unit_m == 1)
+    if (!reading.unit_m)
         if (const auto hint = unitHint(start))
             scene.warnings.push_back(fmt::format("{} {}", file.string(), *hint));
-    if (options.up == UpAxis::y)
+    if (!reading.up)
         if (const auto hint = upHint(scene, start))
             scene.warnings.push_back(fmt::format("{} {}", file.string(), *hint));
     return scene;
 }
 
+/// The file that is asked for or, of a scene that is a file, the one beside it.
+std::optional<fs::path> lightsFileOf(const std::string& nameOrPath, const OpenOptions& options) {
+    if (options.lightsFile || isBuiltin(nameOrPath)) return options.lightsFile;
+    const fs::path beside = fs::path(nameOrPath).replace_extension(".lights.json");
+    std::error_code error;
+    return fs::exists(beside, error) ? std::optional(beside) : std::nullopt;
+}
+
 }  // namespace
-
-std::span<const std::pair<std::string_view, double>> lengthUnits_m() {
-    static constexpr std::array<std::pair<std::string_view, double>, 5> units = {
-        {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}, {"in", 0.0254}, {"ft", 0.3048}}};
-    return units;
-}
-
-std::string_view nameOfUnit(double unit_m) {
-    return std::ranges::find(lengthUnits_m(), unit_m, &std::pair<std::string_view, double>::second)->first;
-}
-
-std::span<const std::pair<std::string_view, Glass>> glassNames() {
-    static constexpr std::array<std::pair<std::string_view, Glass>, 3> names = {
-        {{"clear", Glass::clear}, {"tinted", Glass::tinted}, {"blocks", Glass::blocks}}};
-    return names;
-}
-
-std::string_view nameOfGlass(Glass glass) {
-    return std::ranges::find(glassNames(), glass, &std::pair<std::string_view, Glass>::second)->first;
-}
 
 Scene openScene(const std::string& nameOrPath, const OpenOptions& options) {
     const bool builtin = isBuiltin(nameOrPath);
-    Scene scene = builtin ? openBuiltin(nameOrPath, options) : openFile(nameOrPath, options);
+    const std::optional<fs::path> lightsFile = lightsFileOf(nameOrPath, options);
+    std::optional<Sidecar> sidecar;
+    if (lightsFile) sidecar = readSidecar(*lightsFile);
+    const ModelReading reading = options.reading.orElse(sidecar ? sidecar->reading : ModelReading());
+    Scene scene = builtin ? openBuiltin(nameOrPath, options) : openFile(nameOrPath, options, reading);
+    if (builtin && !reading.saysNothing())
+        scene.warnings.push_back(
+            fmt::format("built-in scene '{}' is in metres with Y up and without glass: 'unit', 'up' and "
+                        "'glass' are said of it in vain",
+                        nameOrPath));
 
-    std::optional<fs::path> lightsFile = options.lightsFile;
-    if (!lightsFile && !builtin) {
-        const fs::path sidecar = fs::path(nameOrPath).replace_extension(".lights.json");
-        std::error_code error;
-        if (fs::exists(sidecar, error)) lightsFile = sidecar;
-    }
-    bool fileHasLights = false;
-    if (lightsFile) {
-        const Sidecar sidecar = readSidecar(*lightsFile);
-        fileHasLights = sidecar.lights.has_value();
-        applySidecar(scene, sidecar, lightsFile->parent_path());
-    }
+    if (sidecar) applySidecar(scene, *sidecar, lightsFile->parent_path());
     if (options.sun) {
         Light sun = sunLight("sun", options.sun->place, options.sun->setting, "--sun");
-        scene.motion = std::make_shared<WithSun>(scene.motion, std::move(sun), fileHasLights);
+        scene.motion =
+            std::make_shared<WithSun>(scene.motion, std::move(sun), sidecar && sidecar->lights.has_value());
     }
     scene.motion = withSizes(scene.motion, options.lightSizes);
     addDefaults(scene, nameOrPath);

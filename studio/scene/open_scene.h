@@ -4,13 +4,11 @@
 
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "studio/scene/light_size.h"
+#include "studio/scene/model_reading.h"
 #include "studio/scene/scene.h"
 #include "studio/scene/sun/sun.h"
 
@@ -30,19 +28,9 @@ struct OpenOptions {
     /// Which animations play together; none: the rest pose. Unset: all that move different things.
     std::optional<std::vector<int>> animations;
     std::optional<int> scene;  ///< which of a glTF file's scenes; the file's own default where unset
-    Glass glass = Glass::clear;
-    double unit_m = 1;  ///< of a file that does not keep to glTF's metre
-    UpAxis up = UpAxis::y;
+    ModelReading reading;  ///< of a file; what is not said here its file of lights may say
     LightSizes lightSizes;  ///< for lights that have none
 };
-
-/// The lengths that a file's coordinates may count, by name: mm, cm, m, in, ft.
-std::span<const std::pair<std::string_view, double>> lengthUnits_m();
-std::string_view nameOfUnit(double unit_m);
-
-/// What may be said of glass, by name: clear, tinted, blocks.
-std::span<const std::pair<std::string_view, Glass>> glassNames();
-std::string_view nameOfGlass(Glass glass);
 
 /// Opens a built-in scene of this name, or else the .gltf or .glb file (`./NAME` for a file named like a
 /// built-in).

@@ -105,6 +105,48 @@ TEST_F(OpenScene, AnEmptySidecarGetsTheDefaultLight) {
     EXPECT_EQ(scene.at(0).lights[0].name, "default key");
 }
 
+TEST_F(OpenScene, AFileOfLightsSaysHowTheModelIsReadUnlessAFlagDoes) {
+    const std::string chair = write("chair.gltf", triangleGltf(true, true));
+    const auto top = [&](const ModelReading& reading) {
+        return openScene(chair, {.reading = reading}).at(0).bounds.max;
+    };
+    EXPECT_EQ(top({}), glm::vec3(1, 1, 0));
+    // Y of the file points away from who looks, Z up.
+    write("chair.lights.json", R"({"version": 1, "unit": "ft", "up": "z"})");
+    EXPECT_EQ(top({}), glm::vec3(0.3048f, 0, 0));
+    EXPECT_EQ(top({.unit_m = 1}), glm::vec3(1, 0, 0));
+    EXPECT_EQ(top({.up = UpAxis::y}), glm::vec3(0.3048f, 0.3048f, 0));
+    EXPECT_EQ(openScene(chair).at(0).lights.at(0).name, "own") << "says nothing of lights";
+    // The file that is asked for speaks instead of the one beside.
+    OpenOptions asked;
+    asked.lightsFile = write("other.json", R"({"version": 1, "unit": "cm"})");
+    EXPECT_EQ(openScene(chair, asked).at(0).bounds.max, glm::vec3(0.01f, 0.01f, 0));
+}
+
+TEST_F(OpenScene, AFileOfLightsSaysWhatGlassDoesUnlessAFlagDoes) {
+    std::string pane = triangleGltf(true, true);
+    const std::string positions = R"("POSITION": 0})";
+    pane.insert(pane.find(positions) + positions.size(), R"(, "material": 0)");
+    pane.insert(pane.rfind('}'),
+                R"(, "materials": [{"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.25]}}])");
+    const std::string file = write("pane.gltf", pane);
+    const auto instance = [&](const ModelReading& reading) {
+        return openScene(file, {.reading = reading}).at(0).instances.at(0);
+    };
+    EXPECT_FALSE(instance({}).casts);
+    write("pane.lights.json", R"({"version": 1, "glass": "tinted"})");
+    EXPECT_TRUE(instance({}).casts);
+    EXPECT_EQ(instance({}).transmittance, glm::vec3(0.75f));
+    EXPECT_FALSE(instance({.glass = Glass::clear}).casts);
+    EXPECT_EQ(instance({.glass = Glass::blocks}).transmittance, glm::vec3(0));
+}
+
+TEST_F(OpenScene, HowABuiltinIsReadIsSaidInVain) {
+    EXPECT_EQ(openScene("torus", {.reading = {.unit_m = 1e-3}}).warnings,
+              std::vector<std::string>{"built-in scene 'torus' is in metres with Y up and without glass: "
+                                       "'unit', 'up' and 'glass' are said of it in vain"});
+}
+
 TEST_F(OpenScene, BuiltinsTakeAFileOfLightsToo) {
     OpenOptions options;
     options.lightsFile = write(

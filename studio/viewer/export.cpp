@@ -114,9 +114,10 @@ std::string renderCommand(Session& session, const fs::path& folder, PictureSize 
         if (!options.sun->setting.refraction) line += " --no-refraction";
     }
     if (options.scene) line += fmt::format(" --scene {}", *options.scene);
-    if (options.up == UpAxis::z) line += " --up z";
-    if (options.unit_m != 1) line += fmt::format(" --unit {}", nameOfUnit(options.unit_m));
-    if (options.glass != Glass::clear) line += fmt::format(" --glass {}", nameOfGlass(options.glass));
+    const ModelReading& reading = options.reading;
+    if (reading.up) line += fmt::format(" --up {}", nameOfUpAxis(*reading.up));
+    if (reading.unit_m) line += fmt::format(" --unit {}", nameOfUnit(*reading.unit_m));
+    if (reading.glass) line += fmt::format(" --glass {}", nameOfGlass(*reading.glass));
     if (options.animations)
         line += options.animations->empty()
                     ? " --animation=-1"

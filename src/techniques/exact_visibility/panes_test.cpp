@@ -275,11 +275,11 @@ TEST_F(PanesTest, TintedGlassOfTheFieldIsTheReferences) {
                                        {"glass-blend.glb", glm::vec3(0.9f)},
                                        {"window-blend.glb", glm::vec3(0.9f)},
                                        {"window-transmission.glb", glm::vec3(0.8f, 0.9f, 1)}}) {
-        const Scene scene = openScene((*field / name).string(), {.glass = Glass::tinted});
+        const Scene scene = openScene((*field / name).string(), {.reading = {.glass = Glass::tinted}});
         const LightResult reference = truth(scene, size, 512), result = exact(scene);
         EXPECT_LE(judge(reference, result).rmse, 0.02) << name;
         // Drawn as glass, whatever it does to light.
-        const Scene transparent = openScene((*field / name).string(), {.glass = Glass::clear});
+        const Scene transparent = openScene((*field / name).string(), {.reading = {.glass = Glass::clear}});
         const Image clear = exact(transparent).visibility;
         const Image blocked = exact(with(transparent, [](Instance& instance, std::size_t) {
                                   instance.casts = true;

@@ -144,6 +144,21 @@ TEST(LightsSchema, AgreesWithTheParser) {
     EXPECT_EQ(probed, 126);
 }
 
+TEST(LightsSchema, NamesWhatMayBeSaidOfTheScenesFile) {
+    const json schema = json::parse(textOf("lights.schema.json"));
+    const auto names = [](auto table) {
+        json all = json::array();
+        for (const auto& [name, value] : table) all.push_back(std::string(name));
+        return all;
+    };
+    EXPECT_EQ(schema["properties"]["unit"]["enum"], names(lengthUnits_m()));
+    EXPECT_EQ(schema["properties"]["up"]["enum"], names(upAxisNames()));
+    EXPECT_EQ(schema["properties"]["glass"]["enum"], names(glassNames()));
+    for (const char* const key : {"unit", "up", "glass"})
+        for (const json& name : schema["properties"][key]["enum"])
+            EXPECT_TRUE(isAccepted({{"version", 1}, {key, name}})) << key << " " << name;
+}
+
 TEST(LightsSchema, StatesTheDefaultsOfTheParser) {
     const json schema = json::parse(textOf("lights.schema.json"));
     for (const std::string type : types) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "studio/scene/model_reading.h"
 #include "studio/scene/scene.h"
 
 namespace penumbra::studio {
@@ -53,6 +54,7 @@ struct SurfaceRules {
 
 struct Sidecar {
     std::string fileName;                             ///< for messages
+    ModelReading reading;                             ///< of the scene's file, before all else
     std::optional<std::vector<SidecarLight>> lights;  ///< unset: the scene keeps its own
     SurfaceRules surfaces;
 };
@@ -75,7 +77,7 @@ std::string formatLight(const SidecarLight& light);
 glm::dmat4 worldFromParent(const SidecarLight& light, const Scene& scene, const SceneMoment& moment);
 
 /// Replaces the scene's lights (if the sidecar has any say in them) and classifies its surfaces, at all
-/// times. A light that hangs on a node follows its place and rotation, not its scale. Textures are read from
+/// times; how the scene's file is to be read is its opener's to heed. A light that hangs on a node follows its place and rotation, not its scale. Textures are read from
 /// beneath `folder` only. Throws InputError for an unknown or ambiguous node and for a texture that cannot be
 /// read.
 void applySidecar(Scene& scene, const Sidecar& sidecar, const std::filesystem::path& folder);

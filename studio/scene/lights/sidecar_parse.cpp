@@ -286,6 +286,21 @@ std::vector<SurfaceRule> readRules(const LinedJson& document, const JsonView& ro
     return rules;
 }
 
+/// One of `legal`, by name.
+template <typename Value>
+std::optional<Value> readNamed(const JsonView& root, std::string_view key,
+                               std::span<const std::pair<std::string_view, Value>> legal) {
+    const auto stated = root.find(key);
+    if (!stated) return {};
+    const std::string& name = stated->asName();
+    std::vector<std::string_view> names;
+    for (const auto& [known, value] : legal) {
+        if (known == name) return value;
+        names.push_back(known);
+    }
+    stated->fail(fmt::format("{} '{}' is none of: {}", key, name, fmt::join(names, ", ")));
+}
+
 std::vector<SidecarLight> readLights(const LinedJson& document, const JsonView& list) {
     std::vector<SidecarLight> lights;
     std::set<std::string> names;
@@ -302,7 +317,8 @@ std::vector<SidecarLight> readLights(const LinedJson& document, const JsonView& 
 Sidecar parseSidecar(std::string_view json, const std::string& fileName) {
     const LinedJson document(json, fileName);
     const JsonView root = document.root();
-    constexpr std::array<std::string_view, 5> keys{"$schema", "version", "lights", "nodes", "materials"};
+    constexpr std::array<std::string_view, 8> keys{"$schema", "version", "unit",   "up",
+                                                   "glass",   "lights",  "nodes", "materials"};
     document.checkKeys(root, keys, "the file");
     const auto version = root.find("version");
     if (!version) root.fail("the file needs a \"version\": 1");
@@ -310,7 +326,10 @@ Sidecar parseSidecar(std::string_view json, const std::string& fileName) {
         version->fail(fmt::format("version {} is not known: this reads version 1", number));
     if (const auto schema = root.find("$schema")) schema->asName();
 
-    Sidecar sidecar{fileName, {}, {}};
+    Sidecar sidecar{.fileName = fileName,
+                    .reading = {.unit_m = readNamed(root, "unit", lengthUnits_m()),
+                                .up = readNamed(root, "up", upAxisNames()),
+                                .glass = readNamed(root, "glass", glassNames())}};
     if (const auto lights = root.find("lights")) sidecar.lights = readLights(document, *lights);
     sidecar.surfaces = {readRules(document, root, "materials", "material"),
                         readRules(document, root, "nodes", "node")};

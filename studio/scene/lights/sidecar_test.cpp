@@ -160,7 +160,7 @@ TEST(Sidecar, WattsAreThoseOfAProgramAndItsVersion) {
 }
 
 TEST(Sidecar, WhatIsWrittenReadsBackTheSame) {
-    const Sidecar written = parseSidecar(R"({"version": 1, "lights": [
+    const Sidecar written = parseSidecar(R"({"version": 1, "unit": "in", "up": "z", "glass": "tinted", "lights": [
       {"name": "a \"quoted\" \u00e9", "type": "RectLight", "width": 1.1, "height": 0, "intensity": 8123.7,
        "color": [0.1, 0.7, 0.3], "texture:file": "window.png", "translation": [0.1, 4, -1e-7], "twoSided": true,
        "rotation": [-0.7071068, 0, 0, 0.7071068]},
@@ -173,6 +173,9 @@ TEST(Sidecar, WhatIsWrittenReadsBackTheSame) {
                                          "a.lights.json");
     const std::string text = formatSidecar(written);
     const Sidecar read = parseSidecar(text, "b.lights.json");
+    EXPECT_EQ(read.reading.unit_m, 0.0254);
+    EXPECT_EQ(read.reading.up, UpAxis::z);
+    EXPECT_EQ(read.reading.glass, Glass::tinted);
     ASSERT_EQ(read.lights->size(), written.lights->size());
     for (std::size_t i = 0; i < read.lights->size(); ++i) {
         const SidecarLight &a = (*written.lights)[i], &b = (*read.lights)[i];
@@ -207,7 +210,9 @@ TEST(Sidecar, WhatIsWrittenReadsBackTheSame) {
     EXPECT_EQ(read.surfaces.materials[0].name, "Glass*");
     EXPECT_EQ(read.surfaces.materials[0].casts, false);
     // A sidecar that says nothing about lights still says nothing.
-    EXPECT_FALSE(parseSidecar(formatSidecar({.fileName = "c", .lights = {}, .surfaces = {}}), "c").lights);
+    const Sidecar silent = parseSidecar(formatSidecar({.fileName = "c"}), "c");
+    EXPECT_FALSE(silent.lights);
+    EXPECT_TRUE(silent.reading.saysNothing());
     EXPECT_TRUE(parseSidecar(formatSidecar({.lights = std::vector<SidecarLight>()}), "c").lights->empty());
 }
 
@@ -292,6 +297,15 @@ TEST(Sidecar, ErrorsSayWhereAndWhatToDo) {
     };
     const std::string f = "chair.lights.json:";
     const std::vector<Case> cases{
+        {R"({"version": 1,
+ "unit": "inch"})", f + "2: unit 'inch' is none of: mm, cm, m, in, ft"},
+        {R"({"version": 1, "up":
+ "Z"})", f + "2: up 'Z' is none of: y, z"},
+        {R"({"version": 1, "glass": "tint"})", f + "1: glass 'tint' is none of: clear, tinted, blocks"},
+        {R"({"version": 1, "unit": 0.001})", f + "1: 'unit' must be a string, not number"},
+        {R"({"version": 1, "up": null})", f + "1: 'up' must be a string, not null"},
+        {R"({"version": 1, "glass": ""})", f + "1: 'glass' must not be empty"},
+        {R"({"version": 1, "units": "mm"})", f + "1: unknown key 'units' in the file; did you mean 'unit'?"},
         {withLight("\"radus\": 1"), f + "4: unknown key 'radus' in SphereLight; did you mean 'radius'?"},
         {withLight("\"width\": 1"), f + "4: unknown key 'width' in SphereLight"},
         {withLight("\"radius\":\n\n 1,\r\n\"angle\": 2"), f + "7: unknown key 'angle' in SphereLight"},
@@ -361,7 +375,7 @@ TEST(Sidecar, HostileSizesAreRefusedBeforeTheyCost) {
 // Every prefix, and every single changed byte, of a good file: an InputError or a sidecar, nothing else.
 TEST(Sidecar, SurvivesDamage) {
     const std::string good =
-        R"({"version": 1, "lights": [{"name": "k", "type": "RectLight", "color": [1, 0.9, 0.8],
+        R"({"version": 1, "unit": "mm", "up": "z", "lights": [{"name": "k", "type": "RectLight", "color": [1, 0.9, 0.8],
         "rotation": [0, 0, 0, 1], "texture:file": "a.png"}], "nodes": {"N": {"casts": true}}})";
     const auto parse = [](const std::string& text) {
         try {

@@ -155,6 +155,10 @@ std::string formatLight(const SidecarLight& light) {
 std::string formatSidecar(const Sidecar& sidecar) {
     // One line a light, as a person would write it: nlohmann's indentation would put every number on its own.
     std::string text = "{\n  \"version\": 1";
+    const ModelReading& reading = sidecar.reading;
+    if (reading.unit_m) text += fmt::format(",\n  \"unit\": \"{}\"", nameOfUnit(*reading.unit_m));
+    if (reading.up) text += fmt::format(",\n  \"up\": \"{}\"", nameOfUpAxis(*reading.up));
+    if (reading.glass) text += fmt::format(",\n  \"glass\": \"{}\"", nameOfGlass(*reading.glass));
     if (sidecar.lights) {
         text += ",\n  \"lights\": [";
         for (const SidecarLight& light : *sidecar.lights) {
