@@ -12,21 +12,33 @@
 namespace penumbra::studio {
 namespace {
 
+/// What the manual's page on buildings recommends.
 struct Converter {
     std::string_view endings;  ///< each with its dot, between spaces
     std::string_view program, command;
 };
 
 constexpr std::string_view assimp = "assimp (Debian: assimp-utils)",
-                           assimpCommand = "assimp export {} OUT.glb -fglb2";
-constexpr std::array<Converter, 7> converters = {{
-    {" .ifc .ifczip ", "IfcConvert (ifcopenshell.org)", "IfcConvert {} OUT.glb"},
-    {" .stp .step ", "Open CASCADE (Debian: occt-draw libocct-draw-dev)",
+                           assimpCommand = "assimp export {} OUT.glb -fglb2",
+                           occt = "Open CASCADE (Debian: occt-draw libocct-draw-dev)",
+                           webIfc = "a script of Penumbra's (npm: web-ifc @gltf-transform/core)",
+                           tilesTools = "3d-tiles-tools (npm)";
+constexpr std::array<Converter, 10> converters = {{
+    {" .ifc ", webIfc, "node examples/buildings/ifc_to_glb.mjs {} OUT.glb"},
+    {" .ifczip ", webIfc,
+     "unzip -p {} >MODEL.ifc && node examples/buildings/ifc_to_glb.mjs MODEL.ifc OUT.glb"},
+    {" .stp .step ", occt,
      "occt-draw -b -c 'pload MODELING XDE OCAF; ReadStep D {}; XGetOneShape s D; incmesh s 0.5; WriteGltf D "
      "OUT.glb'"},
-    {" .b3dm ", "3d-tiles-tools (npm)", "npx 3d-tiles-tools b3dmToGlb -i {} -o OUT.glb"},
-    {" .i3dm ", "3d-tiles-tools (npm)", "npx 3d-tiles-tools i3dmToGlb -i {} -o OUT.glb"},
-    {" .city.json .cityjson ", "cjio (pip)", "cjio {} export glb OUT.glb"},
+    {" .brep .brp ", occt,
+     "occt-draw -b -c 'pload MODELING XDE OCAF; restore {} s; incmesh s 0.5; XNewDoc D; XAddShape D s; "
+     "WriteGltf D OUT.glb'"},
+    {" .b3dm ", tilesTools, "npx 3d-tiles-tools@0.5.4 b3dmToGlb -i {} -o OUT.glb"},
+    {" .i3dm ", tilesTools, "npx 3d-tiles-tools@0.5.4 i3dmToGlb -i {} -o OUT.glb"},
+    {" .city.json .cityjson ", "a script of Penumbra's (npm: earcut @gltf-transform/core)",
+     "node examples/buildings/cityjson_to_glb.mjs {} OUT.glb"},
+    {" .sh3d ", "assimp (Debian: assimp-utils), from what Sweet Home 3D exports of {} as OBJ,",
+     "assimp export HOME.obj OUT.glb -fglb2"},
     {" .blend ", "Blender",
      "blender -b {} --python-expr 'import bpy; bpy.ops.export_scene.gltf(filepath=\"OUT.glb\")'"},
     {" .obj .fbx .dae .stl .ply .3ds .x3d .off ", assimp, assimpCommand},
@@ -62,7 +74,8 @@ std::string wayToGltf(const std::filesystem::path& file) {
     for (const Converter& converter : converters)
         for (std::size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1))
             if (converter.endings.find(' ' + name.substr(dot) + ' ') != std::string_view::npos)
-                return fmt::format("; {} writes one: {}", converter.program,
+                return fmt::format("; {} writes one: {}",
+                                   fmt::format(fmt::runtime(converter.program), file.filename().string()),
                                    fmt::format(fmt::runtime(converter.command), file.string()));
     return "";
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 #include "studio/errors.h"
@@ -173,11 +174,6 @@ TEST_F(OpenScene, ErrorsSayWhatToDo) {
                   obj + " OUT.glb -fglb2");
     const std::string text = write("a.txt", "v 0 0 0");
     EXPECT_EQ(errorOf(text), "'" + text + "' is not a scene that can be read: only glTF 2.0, .gltf or .glb");
-    for (const auto& [name, command] : {std::pair("a.IFC", "IfcConvert "),
-                                        {"a.stp", "ReadStep D "},
-                                        {"tile.b3dm", "b3dmToGlb -i "},
-                                        {"town.city.json", "cjio "}})
-        EXPECT_NE(errorOf(write(name, "x")).find(command), std::string::npos) << name;
     OpenOptions options;
     options.lightsFile = folder / "none.json";
     EXPECT_EQ(errorOf("torus", options), "lights: '" + (folder / "none.json").string() + "' does not exist");
@@ -185,6 +181,49 @@ TEST_F(OpenScene, ErrorsSayWhatToDo) {
     EXPECT_EQ(errorOf("moving", options), "built-in scene 'moving' has no animation 1: it has 1");
     options = {.scene = 1};
     EXPECT_EQ(errorOf("moving", options), "built-in scene 'moving' has no scene 1: it has one, 0");
+}
+
+// What a refusal names is what the page on buildings says, command for command.
+TEST_F(OpenScene, RefusalsNameTheConverterThatTheManualRecommends) {
+    std::ifstream page(fs::path(PENUMBRA_DOCS) / "manual/buildings.md");
+    const std::string manual((std::istreambuf_iterator<char>(page)), {});
+    struct Case {
+        std::string name, program, output;
+    };
+    for (const auto& [name, program, output] :
+         {Case{"house.ifc", "a script of Penumbra's (npm: web-ifc @gltf-transform/core)", "house.glb"},
+          {"house.IFC", "a script of Penumbra's (npm: web-ifc @gltf-transform/core)", "house.glb"},
+          {"house.ifczip", "a script of Penumbra's (npm: web-ifc @gltf-transform/core)", "house.glb"},
+          {"part.stp", "Open CASCADE (Debian: occt-draw libocct-draw-dev)", "part.glb"},
+          {"part.step", "Open CASCADE (Debian: occt-draw libocct-draw-dev)", "part.glb"},
+          {"part.brep", "Open CASCADE (Debian: occt-draw libocct-draw-dev)", "part.glb"},
+          {"tile.b3dm", "3d-tiles-tools (npm)", "tile.glb"},
+          {"tile.i3dm", "3d-tiles-tools (npm)", "tile.glb"},
+          {"town.city.json", "a script of Penumbra's (npm: earcut @gltf-transform/core)", "town.glb"},
+          {"town.cityjson", "a script of Penumbra's (npm: earcut @gltf-transform/core)", "town.glb"},
+          {"home.sh3d",
+           "assimp (Debian: assimp-utils), from what Sweet Home 3D exports of home.sh3d as OBJ,", "home.glb"},
+          {"house.fbx", "assimp (Debian: assimp-utils)", "house.glb"}}) {
+        const std::string file = write(name, "x"), error = errorOf(file);
+        const std::string before = "'" + file +
+                                   "' is not a scene that can be read: only glTF 2.0, .gltf or .glb; " +
+                                   program + " writes one: ";
+        ASSERT_TRUE(error.starts_with(before)) << error;
+        EXPECT_EQ(error.find('\n'), std::string::npos) << "one line";
+        // As the page writes it: a file of this folder, and an output of its name.
+        std::string command = error.substr(before.size());
+        const auto replace = [&](const std::string& from, const std::string& to) {
+            for (auto at = command.find(from); at != std::string::npos; at = command.find(from, at + to.size()))
+                command.replace(at, from.size(), to);
+        };
+        replace(file, name == "house.fbx" ? "house.obj" : name == "house.IFC" ? "house.ifc" : name);
+        replace("OUT.glb", output);
+        replace("HOME.obj", "home.obj");
+        replace("MODEL.ifc", "house.ifc");
+        replace("part.step;", "part.stp;");
+        replace("town.cityjson", "town.city.json");
+        EXPECT_NE(manual.find(command), std::string::npos) << command;
+    }
 }
 
 TEST(OpenBuiltin, OpensThemAllWithoutWarnings) {
