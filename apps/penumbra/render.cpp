@@ -88,6 +88,7 @@ struct RenderArguments {
     bool skipExisting = false;
     bool json = false;
     std::optional<bool> smoothTerminator;
+    std::string luminaires = "shown";
 
     /// Pictures of files are smooth where nothing else was asked; what is measured is not.
     bool isTerminatorSmooth() const {
@@ -233,6 +234,7 @@ class RenderCommand {
         requireSize(workbench, size);
         workbench.frame().setExposure(exposure);
         workbench.frame().setSmoothTerminator(arguments_.isTerminatorSmooth());
+        workbench.frame().showLuminaires(arguments_.luminaires == "shown");
         const RenderTechniques techniques(workbench, arguments_, scene.at(arguments_.scene.time_s).lights);
         workbench.open(scene);
 
@@ -317,7 +319,8 @@ class RenderCommand {
         nlohmann::ordered_json json = {
             {"scene", arguments_.scene.scene},         {"technique", arguments_.technique},
             {"size", {size.width_px, size.height_px}}, {"time_s", time_s},
-            {"exposure_ev", result.exposureValue},     {"lights", nlohmann::json::array()}};
+            {"exposure_ev", result.exposureValue},     {"luminaires", arguments_.luminaires},
+            {"lights", nlohmann::json::array()}};
         for (const LightResult& light : result.lights) {
             json["lights"].push_back(
                 {{"light", light.light}, {"statistics", statisticsJson(light.statistics)}});
@@ -396,6 +399,12 @@ void addRender(CLI::App& app, const std::string& commandLine) {
             "else "
             "smooth in pictures of files, where no --visibility is asked for")
         ->check(CLI::IsMember({"smooth", "faceted"}));
+    command
+        ->add_option("--luminaires", arguments->luminaires,
+                     "shown: lights that have a size and a place are seen in the picture; hidden: only what "
+                     "they light")
+        ->check(CLI::IsMember({"shown", "hidden"}))
+        ->capture_default_str();
     command->add_option("--frames", arguments->frames,
                         "A-B or A-BxSTEP: an animation, into numbered files (#### in -o)");
     command->add_option("--fps", arguments->framesPerSecond, "frames for each second of the animation")

@@ -37,6 +37,7 @@ FrameRenderer::FrameRenderer(Device& device, std::filesystem::path shaderSourceD
       shaders_(makeShaderLibrary(std::move(shaderSourceDirectory))),
       gbuffer_(shaders_),
       lighting_(shaders_, {"studio/frame/lighting.comp.glsl"}),
+      luminaire_(shaders_, {"studio/frame/luminaire.comp.glsl"}),
       exposureRows_(shaders_, {"studio/frame/exposure_rows.comp.glsl"}),
       exposure_(shaders_, {"studio/frame/exposure.comp.glsl"}),
       toneMap_(shaders_, {"studio/frame/tone_map.comp.glsl"}),
@@ -51,6 +52,7 @@ void FrameRenderer::resize(int width_px, int height_px) {
     unshadowed_ = make(gl::Format::rgba32f, "unshadowed radiance");
     illuminance_ = make(gl::Format::r32f, "illuminance");
     reach_ = make(gl::Format::r32f, "unshadowed irradiance of one light");
+    nearness_ = make(gl::Format::r32f, "1 / distance of the lights that are seen");
     display_ = make(gl::Format::rgba8, "display");
     rowSums_ = gl::Buffer(std::size_t(height_px) * sizeof(glm::vec2), "exposure, row by row");
 }
@@ -69,6 +71,7 @@ void FrameRenderer::beginLighting() {
     gbuffer_.emission().copyTo(radiance_);
     gbuffer_.emission().copyTo(unshadowed_);
     illuminance_.clear();
+    nearness_.clear();
 }
 
 ShadowInputs FrameRenderer::shadowInputs(const Light& light) const {
@@ -110,13 +113,18 @@ FrameInputs FrameRenderer::frameInputs(std::span<const FrameLight> lights) const
     return {.view = gbuffer_.view(), .casters = scene_->casters(), .lights = lights};
 }
 
-void FrameRenderer::addLight(const Light& light, const VisibilityBuffer& visibility) {
-    const gl::DebugGroup group("lighting");
+LightingConstants FrameRenderer::constantsOf(const Light& light) const {
     const glm::dmat4 fromLight = worldFromLight(light.shape, camera_);
     LightingConstants constants = lightingConstants(light, fromLight);
     constants.lightFromClip = glm::inverse(camera_.clipFromView * camera_.viewFromWorld * fromLight);
-    constants.isVisibilityColored = visibility.colored();
     constants.size_px = {display_.width_px(), display_.height_px()};
+    return constants;
+}
+
+void FrameRenderer::addLight(const Light& light, const VisibilityBuffer& visibility) {
+    const gl::DebugGroup group("lighting");
+    LightingConstants constants = constantsOf(light);
+    constants.isVisibilityColored = visibility.colored();
     gl::Pass(lighting_)
         .constants(constants)
         .bind("Profile", scene_->profile(light))
@@ -130,6 +138,23 @@ void FrameRenderer::addLight(const Light& light, const VisibilityBuffer& visibil
         .bind("reachImage", reach_)
         .bind("illuminanceImage", illuminance_)
         .dispatchPixels(display_.width_px(), display_.height_px());
+}
+
+void FrameRenderer::addLuminaires(std::span<const Light> lights) {
+    if (!showsLuminaires_) return;
+    const gl::DebugGroup group("luminaires");
+    for (const Light& light : lights) {
+        const LightingConstants constants = constantsOf(light);
+        if (constants.isPoint || light.shape.shape == LightShape::distant) continue;
+        gl::Pass(luminaire_)
+            .constants(constants)
+            .bind("Profile", scene_->profile(light))
+            .bind("depthTexture", gl::TextureRef{.name = gbuffer_.view().depthTexture})
+            .bind("radianceTexture", gl::TextureRef{.name = scene_->radianceTexture(light.texture)})
+            .bind("radianceImage", radiance_)
+            .bind("nearnessImage", nearness_)
+            .dispatchPixels(display_.width_px(), display_.height_px());
+    }
 }
 
 Image FrameRenderer::readVisibility(const VisibilityBuffer& visibility) const {
@@ -161,6 +186,7 @@ const gl::Texture& FrameRenderer::toneMap() {
         .bind("radianceTexture", radiance_)
         .bind("albedoTexture", gbuffer_.albedo())
         .bind("depthTexture", gl::TextureRef{.name = gbuffer_.view().depthTexture})
+        .bind("nearnessTexture", nearness_)
         .bind("Exposure", exposureResult_)
         .bind("displayImage", display_)
         .dispatchPixels(display_.width_px(), display_.height_px());

@@ -21,6 +21,7 @@ namespace penumbra::studio {
 ///     std::vector<VisibilityBuffer> visibilities = frame.makeVisibilities(moment.lights);
 ///     technique.renderLights(frame.frameInputs(frame.frameLights(moment.lights, visibilities)));
 ///     for (i ...) frame.addLight(moment.lights[i], visibilities[i]);
+///     frame.addLuminaires(moment.lights);
 ///     Image picture = frame.readDisplay();
 class FrameRenderer {
   public:
@@ -53,6 +54,13 @@ class FrameRenderer {
     /// Adds a light times its visibility.
     void addLight(const Light& light, const VisibilityBuffer& visibility);
 
+    /// Whether the lights themselves are seen: off unless it is asked for.
+    void showLuminaires(bool areShown) { showsLuminaires_ = areShown; }
+    /// Those that have a size and a place, with their luminance towards the camera, where no surface stands
+    /// before them. That changes radiance() and the picture, and not what lights reach, how bright pictures
+    /// are, or illuminance(), which are of the surface behind.
+    void addLuminaires(std::span<const Light> lights);
+
     /// How bright pictures are: what shows `1.2 * 2^ev` nits as white (exposure value at ISO 100). Without
     /// one it is chosen anew for each picture, so that the mean of the unshadowed picture is mid-grey,
     /// whatever the technique.
@@ -81,14 +89,16 @@ class FrameRenderer {
 
   private:
     void resize(int width_px, int height_px);
+    LightingConstants constantsOf(const Light& light) const;
 
     Device& device_;
     gl::ShaderLibrary shaders_;
     GBuffer gbuffer_;
-    gl::Program lighting_, exposureRows_, exposure_, toneMap_;
+    gl::Program lighting_, luminaire_, exposureRows_, exposure_, toneMap_;
     gl::Buffer exposureResult_, rowSums_;
     std::optional<float> exposureValue_;
-    gl::Texture radiance_, unshadowed_, illuminance_, reach_, display_;
+    bool showsLuminaires_ = false;
+    gl::Texture radiance_, unshadowed_, illuminance_, reach_, nearness_, display_;
     const GpuScene* scene_ = nullptr;
     CameraView camera_;
 };

@@ -6,6 +6,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D radianceTexture;
 uniform sampler2D albedoTexture;
 uniform sampler2D depthTexture;
+uniform sampler2D nearnessTexture;  // of lights that are seen themselves; 0: none is
 layout(std430) readonly buffer Exposure { float exposure; };
 layout(rgba8) uniform writeonly image2D displayImage;
 
@@ -35,7 +36,9 @@ void main() {
     vec4 radiance = texelFetch(radianceTexture, pixel, 0);
     vec4 albedo = texelFetch(albedoTexture, pixel, 0);
     vec3 color = background;
-    if (texelFetch(depthTexture, pixel, 0).r > 0.0) {
+    if (texelFetch(nearnessTexture, pixel, 0).r > 0.0) {
+        color = compress(radiance.rgb * exposure);
+    } else if (texelFetch(depthTexture, pixel, 0).r > 0.0) {
         color = albedo.a > 0.5 ? compress(radiance.rgb * exposure + fill * albedo.rgb) : albedo.rgb;
     }
     imageStore(displayImage, pixel, vec4(encodeSrgb(clamp(color, 0.0, 1.0)), 1.0));

@@ -125,6 +125,7 @@ std::string renderCommand(Session& session, const fs::path& folder, PictureSize 
     if (document.time_s() != 0) line += fmt::format(" --time {}", document.time_s());
     if (session.choices().exposureValue)
         line += fmt::format(" --exposure={}", *session.choices().exposureValue);
+    if (!session.choices().luminairesShown) line += " --luminaires hidden";
     line += cameraFlags(session) + techniqueFlags(session);
     line += fmt::format(" --size {}x{} -o picture.png", size.width_px, size.height_px);
     return line;

@@ -21,10 +21,10 @@ class RefinedPicture {
         : frame_(device, shaderSourceDirectory), sides_(device, frame_) {}
 
     /// Draws it with so many samples, with technique `names[i]` for light i, none of them the reference.
-    /// Exposure as FrameRenderer::setExposure has it.
+    /// Exposure and lights that are seen as FrameRenderer::setExposure and showLuminaires have them.
     void draw(const Document& document, const Camera& camera, int width_px, int height_px,
               const std::vector<std::string>& names, TechniqueBank& techniques, std::size_t last,
-              std::optional<float> exposureValue);
+              std::optional<float> exposureValue, bool luminairesShown);
 
     /// A texel a sample; shown with a linear filter they are averaged.
     const gl::Texture& texture() const { return sides_.side(0).display; }

@@ -252,7 +252,8 @@ void Session::refine(int width_px, int height_px, double budget_ms) {
             const auto probe = [&](int attempt) { return probeRefined(attempt); };
             if (!isFiner || !fits || !refiningCost_.isWithin(budget_ms, pixels * samples, probe)) continue;
             refined_->draw(*document_, camera(), perAxis * width_px, perAxis * height_px,
-                           techniquesOfLights(), techniques_, choices_.light, frame_.readExposureValue());
+                           techniquesOfLights(), techniques_, choices_.light, frame_.readExposureValue(),
+                           choices_.luminairesShown);
             refinedSamples_ = samples;
             return;
         }
@@ -267,7 +268,7 @@ Session::KeptPicture Session::drawToKeep(PictureSize size) {
     if (!refined_) refined_ = std::make_unique<RefinedPicture>(device_, shaderSourceDirectory_);
     refinedSamples_ = 0;
     refined_->draw(*document_, camera(), size.width_px, size.height_px, techniquesOfLights(), techniques_,
-                   choices_.light, choices_.exposureValue);
+                   choices_.light, choices_.exposureValue, choices_.luminairesShown);
     return {refined_->side(), size.width_px, size.height_px, refined_->exposureValue()};
 }
 
@@ -275,7 +276,7 @@ double Session::probeRefined(int attempt) {
     const auto start = Clock::now();
     // Another size each time: of the same picture techniques may have kept what they need.
     refined_->draw(*document_, camera(), width_px_ + attempt, height_px_, techniquesOfLights(), techniques_,
-                   choices_.light, frame_.readExposureValue());
+                   choices_.light, frame_.readExposureValue(), choices_.luminairesShown);
     glFinish();
     return 1e3 * std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -298,6 +299,7 @@ std::vector<std::string> Session::techniquesOfLights() const {
 
 void Session::lightSides() {
     frame_.setExposure(choices_.exposureValue);
+    frame_.showLuminaires(choices_.luminairesShown);
     const std::vector<Light>& lights = document_->moment().lights;
     const bool judged = sideStale_[0] || (sideStale_[1] && showsOther());
     // B before A: what can be inspected is of A.

@@ -40,6 +40,7 @@ struct Choices {
     std::vector<Bookmark> bookmarks;  ///< views that were kept
     std::optional<GridSpec> grid;     ///< that is measured on
     bool logarithmic = true, isolines = true;
+    bool luminairesShown = true;  ///< see FrameRenderer::showLuminaires
     float resolutionScale = 1;
     std::optional<float> exposureValue;  ///< see FrameRenderer::setExposure; none: automatic
     int sceneCamera = 0;                 ///< of the moment's; -1: the free one

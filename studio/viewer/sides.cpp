@@ -94,6 +94,7 @@ void Sides::light(std::size_t index, const Document& document, const std::vector
         frame_.addLight(lights[i], side.visibilities[i]);
         if (i == last) copy(frame_.reach(), side.reach, "viewer/reach");
     }
+    frame_.addLuminaires(lights);
     copy(frame_.toneMap(), side.display, "viewer/display");
     copy(frame_.radiance(), side.radiance, "viewer/radiance");
     copy(frame_.illuminance(), side.illuminance, "viewer/illuminance");

@@ -71,6 +71,7 @@ TechniqueResult Workbench::run(std::string_view name, const TechniqueOf& techniq
         frame_.addLight(light, visibilities[i]);
         lightResult.reach = frame_.readReach();
     }
+    frame_.addLuminaires(moment.lights);
     result.display = frame_.readDisplay();
     result.exposureValue = frame_.readExposureValue();
     result.radiance = frame_.readRadiance();

@@ -145,6 +145,11 @@ void drawViewMenu(Ui& ui, Session& session, WindowState& windowState) {
     item("Visibility", "V", Shown::visibility);
     item("Illuminance", "I", Shown::illuminance);
     ImGui::Separator();
+    if (ui.menuItem("Lights themselves", nullptr, choices.luminairesShown)) {
+        choices.luminairesShown = !choices.luminairesShown;
+        session.changedLighting();
+    }
+    ui.tip("Shining surfaces of lights that have a size and a place, which block nothing");
     if (ui.menuItem("Place a grid", "M", windowState.placesGrid)) windowState.placesGrid = true;
     ImGui::Separator();
     for (const float scale : {0.25f, 0.5f, 0.75f, 1.0f, 2.0f}) {
