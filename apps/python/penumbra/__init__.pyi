@@ -123,9 +123,9 @@ def open_scene(
     lights: str | PathLike[str] | None = None,
     scene: int | None = None,
     animations: Sequence[int] | None = None,
-    glass: Literal["clear", "blocks"] = "clear",
-    unit: Literal["mm", "cm", "m", "in", "ft"] = "m",
-    up: Literal["y", "z"] = "y",
+    glass: Literal["clear", "tinted", "blocks"] | None = None,
+    unit: Literal["mm", "cm", "m", "in", "ft"] | None = None,
+    up: Literal["y", "z"] | None = None,
 ) -> Scene: ...
 def build_scene(meshes: Sequence[Mesh], lights: Sequence[Light], *, name: str = "built") -> Scene: ...
 def techniques() -> dict[str, str]: ...
