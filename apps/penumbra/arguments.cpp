@@ -47,19 +47,11 @@ glm::dvec3 parsePoint(std::string_view flag, const std::string& text) {
     return point;
 }
 
-template <typename Value>
-std::vector<std::string> namesIn(std::span<const std::pair<std::string_view, Value>> table) {
-    std::vector<std::string> names;
-    for (const auto& [name, value] : table) names.emplace_back(name);
-    return names;
-}
-
 /// The value of a flag that was checked to be one of `table`, if it was given.
 template <typename Value>
-std::optional<Value> namedIn(std::span<const std::pair<std::string_view, Value>> table,
-                             const std::optional<std::string>& name) {
+std::optional<Value> given(NamedValues<Value> table, const std::optional<std::string>& name) {
     if (!name) return {};
-    return std::ranges::find(table, *name, &std::pair<std::string_view, Value>::first)->second;
+    return valueNamed(table, *name);
 }
 
 void addFileFlags(CLI::App& command, SceneArguments& arguments) {
@@ -166,9 +158,9 @@ void SceneArguments::addFlagsTo(CLI::App& command) {
 OpenOptions SceneArguments::openOptions() const {
     OpenOptions options{.sun = sun.option(),
                         .scene = sceneIndex,
-                        .reading = {.unit_m = namedIn(lengthUnits_m(), unit),
-                                    .up = namedIn(upAxisNames(), up),
-                                    .glass = namedIn(glassNames(), glass)},
+                        .reading = {.unit_m = given(lengthUnits_m(), unit),
+                                    .up = given(upAxisNames(), up),
+                                    .glass = given(glassNames(), glass)},
                         .lightSizes = {lightRadius_m, glm::radians(sunAngle_deg)}};
     if (animations == std::vector{-1})
         options.animations.emplace();

@@ -57,14 +57,10 @@ void light(Scene& scene, const py::sequence& lights, std::vector<SurfaceRule> no
 /// One of `legal` by name, if it is given. Throws UsageError.
 template <typename Value>
 std::optional<Value> oneOf(std::string_view what, const std::optional<std::string>& name,
-                           std::span<const std::pair<std::string_view, Value>> legal) {
+                           NamedValues<Value> legal) {
     if (!name) return {};
-    std::vector<std::string_view> names;
-    for (const auto& [known, value] : legal) {
-        if (known == *name) return value;
-        names.push_back(known);
-    }
-    throw UsageError(fmt::format("{}='{}' is none of: {}", what, *name, fmt::join(names, ", ")));
+    if (const std::optional<Value> value = valueNamed(legal, *name)) return value;
+    throw UsageError(fmt::format("{}='{}' is none of: {}", what, *name, fmt::join(namesIn(legal), ", ")));
 }
 
 ScenePointer open(const std::filesystem::path& name, const std::optional<std::filesystem::path>& lights,
@@ -155,8 +151,8 @@ Raises InputError ("lights:2: ..." is of the second light).)");
 
     module.def("scenes", &builtins, "The built-in scenes: dict of name to what it shows.");
     module.def("open_scene", &open, py::arg("name"), py::kw_only(), py::arg("lights") = py::none(),
-               py::arg("scene") = py::none(), py::arg("animations") = py::none(), py::arg("glass") = py::none(),
-               py::arg("unit") = py::none(), py::arg("up") = py::none(),
+               py::arg("scene") = py::none(), py::arg("animations") = py::none(),
+               py::arg("glass") = py::none(), py::arg("unit") = py::none(), py::arg("up") = py::none(),
                R"(Opens a glTF 2.0 file (.gltf, .glb), or the built-in scene of that name (see scenes()).
 
 lights: a file of lights (docs/lights.md) instead of NAME.lights.json beside the scene.

@@ -25,14 +25,17 @@ float pointIrradiance(vec3 pos, vec3 normal) {
     return distance2 > 0.0 ? max(0.0, dot(normal, normalize(towards))) / distance2 : 0.0;
 }
 
+// Whether it lies in the plane of a flat light.
+bool isInLightPlane(vec3 pos) {
+    vec2 halfSize_m = lightShape == shapeRect ? light.halfSize_m : vec2(light.radius_m);
+    bool isFlat = (lightShape == shapeRect || lightShape == shapeDisk) && !light.isPoint;
+    return isFlat && abs(pos.z) <= light.planeTolerance * (length(pos) + length(halfSize_m));
+}
+
 // What is behind a flat light, or lies in its plane, sees nothing of it.
 bool isAside(vec3 pos) {
-    int shape = lightShape;
-    bool behind = pos.z >= 0.0;
-    if ((shape == shapeRect || shape == shapeDisk) && behind && !light.isTwoSided) return true;
-    vec2 halfSize_m = shape == shapeRect ? light.halfSize_m : vec2(light.radius_m);
-    bool isFlat = (shape == shapeRect || shape == shapeDisk) && !light.isPoint;
-    return isFlat && abs(pos.z) <= light.planeTolerance * (length(pos) + length(halfSize_m));
+    bool isBehind = (lightShape == shapeRect || lightShape == shapeDisk) && pos.z >= 0.0;
+    return (isBehind && !light.isTwoSided) || isInLightPlane(pos);
 }
 
 float irradianceBeforeCone(vec3 pos, vec3 normal) {

@@ -79,10 +79,7 @@ bool isHidden(vec2 ndc, float depth, Ray ray, float distance) {
     if (depth <= 0.0) return false;
     vec4 pos = light.lightFromClip * vec4(ndc, depth, 1.0);
     vec3 posLight = pos.xyz / pos.w;
-    if (dot(posLight - ray.origin, ray.direction) >= distance) return false;
-    vec2 halfSize_m = lightShape == shapeRect ? light.halfSize_m : vec2(light.radius_m);
-    bool isFlat = lightShape == shapeRect || lightShape == shapeDisk;
-    return !isFlat || abs(posLight.z) > light.planeTolerance * (length(posLight) + length(halfSize_m));
+    return dot(posLight - ray.origin, ray.direction) < distance && !isInLightPlane(posLight);
 }
 
 void main() {

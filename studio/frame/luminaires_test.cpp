@@ -156,7 +156,8 @@ TEST_F(LuminairesTest, ConesAndProfilesShapeWhatIsSeen) {
             lamp.profile = {.profile = std::make_shared<LightProfile>(profile), .isLuminaire = isLuminaire};
             const double candela = 600 - 300 * 0.5 / glm::half_pi<double>();
             const double right = isLuminaire ? candela / area_m2 : candela;
-            // A tube lies along the picture's X and shows less of its length from there; the others turn away.
+            // A tube lies along the picture's X and shows less of its length from there; the others turn
+            // away.
             EXPECT_NEAR(middle_nits(roomWith({lamp}, aside, {0, 4, 0}).build()).x, right, 0.002 * right)
                 << int(shape.shape) << isLuminaire;
         }

@@ -74,10 +74,11 @@ std::vector<std::size_t> orderOf(const Measurement& measurement) {
     return order;
 }
 
-/// A technique's number, of a parameter that it may have, while it is another.
-class Lent {
+/// A number that a technique may have as a parameter, and that is another until this ends. Where it has none
+/// nothing is set.
+class LentParameter {
   public:
-    Lent(Technique& technique, std::string_view name) : technique_(technique), name_(name) {
+    LentParameter(Technique& technique, std::string_view name) : technique_(technique), name_(name) {
         for (const ParameterDescription& parameter : describeParameters(technique)) {
             if (parameter.name != name || parameter.kind != ParameterDescription::Kind::integer) continue;
             std::from_chars(parameter.value.data(), parameter.value.data() + parameter.value.size(), own_);
@@ -85,14 +86,15 @@ class Lent {
         }
         set_ = own_;
     }
-    Lent(const Lent&) = delete;
-    Lent& operator=(const Lent&) = delete;
-    ~Lent() { set(own_); }
+    LentParameter(const LentParameter&) = delete;
+    LentParameter& operator=(const LentParameter&) = delete;
+    ~LentParameter() { set(own_); }
 
     /// As the technique came; 0 where it has no such parameter.
     int own() const { return own_; }
     int most() const { return most_; }
     void set(int value) {
+        if (own_ == 0) return;
         if (value != set_) setParameter(technique_, name_, std::to_string(value));
         set_ = value;
     }
@@ -119,7 +121,7 @@ class LightMeter {
         const int cells = cellsFor(light, wanted);
         const std::vector<Light> parts = partsOf(light, (wanted + cells - 1) / cells);
         shareSamples(int(parts.size()));
-        if (cells_.own() > 0) cells_.set(cells);
+        cells_.set(cells);
         std::vector<PointLight> sum(points.count());
         for (const Light& part : parts) {
             const std::vector<PointLight> added = lighting_.measure(points, scene_, part, technique_);
@@ -152,7 +154,7 @@ class LightMeter {
     const PointSet& set_;
     Technique& technique_;
     PointLighting& lighting_;
-    Lent samples_, cells_;
+    LentParameter samples_, cells_;
 };
 
 Points pointsOf(Device& device, const PointSet& set, std::span<const std::size_t> which) {

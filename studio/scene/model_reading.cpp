@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studio/scene/model_reading.h"
 
-#include <algorithm>
 #include <array>
 
 namespace penumbra::studio {
@@ -11,7 +10,7 @@ template <typename Value>
 using Named = std::pair<std::string_view, Value>;
 
 template <typename Value>
-std::string_view nameIn(std::span<const Named<Value>> table, Value value) {
+std::string_view nameIn(NamedValues<Value> table, Value value) {
     return std::ranges::find(table, value, &Named<Value>::second)->first;
 }
 
@@ -23,7 +22,7 @@ ModelReading ModelReading::orElse(const ModelReading& other) const {
             .glass = glass ? glass : other.glass};
 }
 
-std::span<const Named<double>> lengthUnits_m() {
+NamedValues<double> lengthUnits_m() {
     static constexpr std::array<Named<double>, 5> units = {
         {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}, {"in", 0.0254}, {"ft", 0.3048}}};
     return units;
@@ -33,7 +32,7 @@ std::string_view nameOfUnit(double unit_m) {
     return nameIn(lengthUnits_m(), unit_m);
 }
 
-std::span<const Named<UpAxis>> upAxisNames() {
+NamedValues<UpAxis> upAxisNames() {
     static constexpr std::array<Named<UpAxis>, 2> names = {{{"y", UpAxis::y}, {"z", UpAxis::z}}};
     return names;
 }
@@ -42,7 +41,7 @@ std::string_view nameOfUpAxis(UpAxis up) {
     return nameIn(upAxisNames(), up);
 }
 
-std::span<const Named<Glass>> glassNames() {
+NamedValues<Glass> glassNames() {
     static constexpr std::array<Named<Glass>, 3> names = {
         {{"clear", Glass::clear}, {"tinted", Glass::tinted}, {"blocks", Glass::blocks}}};
     return names;

@@ -28,8 +28,8 @@ struct OpenOptions {
     /// Which animations play together; none: the rest pose. Unset: all that move different things.
     std::optional<std::vector<int>> animations;
     std::optional<int> scene;  ///< which of a glTF file's scenes; the file's own default where unset
-    ModelReading reading;  ///< of a file; what is not said here its file of lights may say
-    LightSizes lightSizes;  ///< for lights that have none
+    ModelReading reading;      ///< of a file; what is not said here its file of lights may say
+    LightSizes lightSizes;     ///< for lights that have none
 };
 
 /// Opens a built-in scene of this name, or else the .gltf or .glb file (`./NAME` for a file named like a

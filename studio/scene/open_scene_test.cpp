@@ -128,8 +128,9 @@ TEST_F(OpenScene, AFileOfLightsSaysWhatGlassDoesUnlessAFlagDoes) {
     std::string pane = triangleGltf(true, true);
     const std::string positions = R"("POSITION": 0})";
     pane.insert(pane.find(positions) + positions.size(), R"(, "material": 0)");
-    pane.insert(pane.rfind('}'),
-                R"(, "materials": [{"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.25]}}])");
+    pane.insert(
+        pane.rfind('}'),
+        R"(, "materials": [{"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.25]}}])");
     const std::string file = write("pane.gltf", pane);
     const auto instance = [&](const ModelReading& reading) {
         return openScene(file, {.reading = reading}).at(0).instances.at(0);
@@ -201,8 +202,8 @@ TEST_F(OpenScene, RefusalsNameTheConverterThatTheManualRecommends) {
           {"tile.i3dm", "3d-tiles-tools (npm)", "tile.glb"},
           {"town.city.json", "a script of Penumbra's (npm: earcut @gltf-transform/core)", "town.glb"},
           {"town.cityjson", "a script of Penumbra's (npm: earcut @gltf-transform/core)", "town.glb"},
-          {"home.sh3d",
-           "assimp (Debian: assimp-utils), from what Sweet Home 3D exports of home.sh3d as OBJ,", "home.glb"},
+          {"home.sh3d", "assimp (Debian: assimp-utils), from what Sweet Home 3D exports of home.sh3d as OBJ,",
+           "home.glb"},
           {"house.fbx", "assimp (Debian: assimp-utils)", "house.glb"}}) {
         const std::string file = write(name, "x"), error = errorOf(file);
         const std::string before = "'" + file +
@@ -213,7 +214,8 @@ TEST_F(OpenScene, RefusalsNameTheConverterThatTheManualRecommends) {
         // As the page writes it: a file of this folder, and an output of its name.
         std::string command = error.substr(before.size());
         const auto replace = [&](const std::string& from, const std::string& to) {
-            for (auto at = command.find(from); at != std::string::npos; at = command.find(from, at + to.size()))
+            for (auto at = command.find(from); at != std::string::npos;
+                 at = command.find(from, at + to.size()))
                 command.replace(at, from.size(), to);
         };
         replace(file, name == "house.fbx" ? "house.obj" : name == "house.IFC" ? "house.ifc" : name);

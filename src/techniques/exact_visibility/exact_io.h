@@ -24,7 +24,7 @@ namespace penumbra::exact_visibility {
 #define EXACT_LEAF_TRIANGLES 4      // at most
 
 #define EXACT_MAX_ROWS 24     // of a lattice, and bits in a row
-#define EXACT_MOST_CELLS 4      // of a rectangle, along each side
+#define EXACT_MOST_CELLS 4    // of a rectangle, along each side
 #define EXACT_MAX_LATTICES 4  // what more than 256 samples are split into
 
 // By how much stand-ins may move an edge at most, in distances between samples.

@@ -77,9 +77,9 @@ std::string formatLight(const SidecarLight& light);
 glm::dmat4 worldFromParent(const SidecarLight& light, const Scene& scene, const SceneMoment& moment);
 
 /// Replaces the scene's lights (if the sidecar has any say in them) and classifies its surfaces, at all
-/// times; how the scene's file is to be read is its opener's to heed. A light that hangs on a node follows its place and rotation, not its scale. Textures are read from
-/// beneath `folder` only. Throws InputError for an unknown or ambiguous node and for a texture that cannot be
-/// read.
+/// times; its `reading` is for whoever opens the scene's file. A light that hangs on a node follows its place
+/// and rotation, not its scale. Textures are read from beneath `folder` only. Throws InputError for an
+/// unknown or ambiguous node and for a texture that cannot be read.
 void applySidecar(Scene& scene, const Sidecar& sidecar, const std::filesystem::path& folder);
 
 }  // namespace penumbra::studio

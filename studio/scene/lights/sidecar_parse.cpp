@@ -288,17 +288,12 @@ std::vector<SurfaceRule> readRules(const LinedJson& document, const JsonView& ro
 
 /// One of `legal`, by name.
 template <typename Value>
-std::optional<Value> readNamed(const JsonView& root, std::string_view key,
-                               std::span<const std::pair<std::string_view, Value>> legal) {
+std::optional<Value> readNamed(const JsonView& root, std::string_view key, NamedValues<Value> legal) {
     const auto stated = root.find(key);
     if (!stated) return {};
     const std::string& name = stated->asName();
-    std::vector<std::string_view> names;
-    for (const auto& [known, value] : legal) {
-        if (known == name) return value;
-        names.push_back(known);
-    }
-    stated->fail(fmt::format("{} '{}' is none of: {}", key, name, fmt::join(names, ", ")));
+    if (const std::optional<Value> value = valueNamed(legal, name)) return value;
+    stated->fail(fmt::format("{} '{}' is none of: {}", key, name, fmt::join(namesIn(legal), ", ")));
 }
 
 std::vector<SidecarLight> readLights(const LinedJson& document, const JsonView& list) {
@@ -317,7 +312,7 @@ std::vector<SidecarLight> readLights(const LinedJson& document, const JsonView& 
 Sidecar parseSidecar(std::string_view json, const std::string& fileName) {
     const LinedJson document(json, fileName);
     const JsonView root = document.root();
-    constexpr std::array<std::string_view, 8> keys{"$schema", "version", "unit",   "up",
+    constexpr std::array<std::string_view, 8> keys{"$schema", "version", "unit",  "up",
                                                    "glass",   "lights",  "nodes", "materials"};
     document.checkKeys(root, keys, "the file");
     const auto version = root.find("version");

@@ -160,7 +160,8 @@ TEST(Sidecar, WattsAreThoseOfAProgramAndItsVersion) {
 }
 
 TEST(Sidecar, WhatIsWrittenReadsBackTheSame) {
-    const Sidecar written = parseSidecar(R"({"version": 1, "unit": "in", "up": "z", "glass": "tinted", "lights": [
+    const Sidecar written =
+        parseSidecar(R"({"version": 1, "unit": "in", "up": "z", "glass": "tinted", "lights": [
       {"name": "a \"quoted\" \u00e9", "type": "RectLight", "width": 1.1, "height": 0, "intensity": 8123.7,
        "color": [0.1, 0.7, 0.3], "texture:file": "window.png", "translation": [0.1, 4, -1e-7], "twoSided": true,
        "rotation": [-0.7071068, 0, 0, 0.7071068]},
@@ -170,7 +171,7 @@ TEST(Sidecar, WhatIsWrittenReadsBackTheSame) {
       {"name": "d", "type": "DistantLight", "angle": 0.53}],
       "nodes": {"Sky": {"casts": false}, "Floor": {"casts": true, "receives": false}},
       "materials": {"Glass*": {"casts": false}}})",
-                                         "a.lights.json");
+                     "a.lights.json");
     const std::string text = formatSidecar(written);
     const Sidecar read = parseSidecar(text, "b.lights.json");
     EXPECT_EQ(read.reading.unit_m, 0.0254);
@@ -298,9 +299,11 @@ TEST(Sidecar, ErrorsSayWhereAndWhatToDo) {
     const std::string f = "chair.lights.json:";
     const std::vector<Case> cases{
         {R"({"version": 1,
- "unit": "inch"})", f + "2: unit 'inch' is none of: mm, cm, m, in, ft"},
+ "unit": "inch"})",
+         f + "2: unit 'inch' is none of: mm, cm, m, in, ft"},
         {R"({"version": 1, "up":
- "Z"})", f + "2: up 'Z' is none of: y, z"},
+ "Z"})",
+         f + "2: up 'Z' is none of: y, z"},
         {R"({"version": 1, "glass": "tint"})", f + "1: glass 'tint' is none of: clear, tinted, blocks"},
         {R"({"version": 1, "unit": 0.001})", f + "1: 'unit' must be a string, not number"},
         {R"({"version": 1, "up": null})", f + "1: 'up' must be a string, not null"},
