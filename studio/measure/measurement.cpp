@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -139,8 +140,10 @@ class LightMeter {
     /// Along each side of the light, where the technique answers for cells of it at once. (None does for
     /// those of textured lights, and past panes.)
     int cellsFor(const Light& light, const glm::ivec2& wanted) const {
-        const bool hasColor = light.texture >= 0 || needsColor(light.shape, scene_.casters());
-        return hasColor ? 1 : std::clamp(std::max(wanted.x, wanted.y), 1, std::max(cells_.most(), 1));
+        if (light.texture >= 0 || needsColor(light.shape, scene_.casters())) return 1;
+        constexpr double leastSamples = 4;  // of a cell, so that its bound holds
+        const int most = std::min(cells_.most(), int(std::sqrt(double(samples_.own()) / leastSamples)));
+        return std::clamp(std::max(wanted.x, wanted.y), 1, std::max(most, 1));
     }
 
     /// Parts of a light share its samples.
