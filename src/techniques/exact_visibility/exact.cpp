@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <string>
@@ -13,6 +11,7 @@
 #include "src/techniques/common/input_key.h"
 #include "src/techniques/common/light_constants.h"
 #include "src/techniques/exact_visibility/light_description.h"
+#include "src/techniques/exact_visibility/round_plan.h"
 
 namespace penumbra::exact_visibility {
 namespace {
@@ -26,34 +25,12 @@ constexpr const char* resolveShader = "src/techniques/exact_visibility/resolve.c
 constexpr int softwareRoundWork = 40000;
 constexpr int hardwareRoundWork = 1000000;
 
-// Of the work of a receiver, as resolve.comp.glsl counts it.
-constexpr double perNode = 2, perTriangle = 8, perRow = 32, perRound = 1000;
-constexpr double mostRounds = 1e6;
-
-int mostSamplesOf(std::span<const LightLattice> lattices) {
-    int most = 0;
-    for (const LightLattice& lattice : lattices) {
-        int count = 0;
-        for (const unsigned row : lattice.validRows) count += std::popcount(row);
-        most = std::max(most, count);
-    }
-    return most;
-}
-
 void bindMaskGroup(gl::Pass& pass, std::span<const unsigned> textures, int group) {
     if (!pass.has("alphaTextures")) return;
     for (std::size_t i = 0; i < EXACT_GROUP_TEXTURES; ++i) {
         const std::size_t which = std::size_t(group) * EXACT_GROUP_TEXTURES + i;
         pass.bind("alphaTextures", i, {.name = which < textures.size() ? textures[which] : 0});
     }
-}
-
-/// Whether a receiver may see the light through six windows (light.glsl): any sphere, and distant lights of
-/// which an edge is more than 60 degrees from the middle.
-bool mayFillHalfTheSky(const AreaLight& light) {
-    constexpr float widest_rad = 1.0471f;  // 60 degrees, but for rounding
-    return light.shape == LightShape::sphere ||
-           (light.shape == LightShape::distant && 0.5f * light.angle_rad > widest_rad);
 }
 
 }  // namespace
@@ -122,46 +99,10 @@ const gl::Program& ExactVisibility::resolveFor(const ResolveKind& kind) {
         .first->second;
 }
 
-/// How many triangles may take a look at each sample: those with holes, and those that may reach the light.
-/// Spheres and tubes may make any triangle one, flat lights those of casters that come near their planes:
-/// within a hundredth of the scene's size, for receivers up to a thousand times that away.
-std::size_t ExactVisibility::countSpecial(const glm::vec3& eye, const ExactLight& light,
-                                          LightShape shape) const {
-    if (shape == LightShape::distant) return soup_.maskedCount();
-    if (shape == LightShape::sphere || shape == LightShape::cylinder) return soup_.triangleCount();
-    const float size = glm::distance(eye, light.center) + soup_.farthestFrom(light.center);
-    return soup_.maskedCount() + soup_.countNear(light.center, light.axisZ, 0.01f * size);
-}
-
-/// How many rounds a turn takes at most: every node visited, every triangle projected, every sample looked
-/// at, as resolve.comp.glsl counts them.
-int ExactVisibility::roundsFor(std::span<const LightLattice> lattices, std::size_t special) const {
-    double rows = 0;
-    for (const LightLattice& lattice : lattices) rows = std::max(rows, double(lattice.validRows.size()));
-    const double work = double(soup_.nodeCount()) * perNode + double(soup_.triangleCount()) * perTriangle +
-                        double(special) * (rows + double(mostSamplesOf(lattices))) + perRow * rows;
-    return int(std::min(1 + std::ceil(work / (roundWork_ - perRound)), mostRounds));
-}
-
-/// The same for a step in which samples are taken through panes.
-int ExactVisibility::roundsForPanes(std::size_t rows) const {
-    constexpr double perPaneTriangle = 4 + 2 * EXACT_PANE_SAMPLES;
-    const double work = double(soup_.nodeCount()) * perNode +
-                        double(soup_.paneTriangleCount()) * (perTriangle + perPaneTriangle) +
-                        perRow * double(rows) + 10 * EXACT_PANE_SAMPLES;
-    return int(std::min(1 + std::ceil(work / (roundWork_ - perRound)), mostRounds));
-}
-
 int ExactVisibility::cellsFor(const AreaLight& light) const {
     const bool hasCells = light.shape == LightShape::rect && hasSize(light) && light.radianceTexture == 0 &&
                           soup_.paneTriangleCount() == 0;
     return hasCells ? cells_ : 1;
-}
-
-/// How often it takes to take all samples of a lattice through panes, if there are any.
-int ExactVisibility::paneStepsFor(std::span<const LightLattice> lattices) const {
-    if (soup_.paneTriangleCount() == 0) return 0;
-    return (mostSamplesOf(lattices) + EXACT_PANE_SAMPLES - 1) / EXACT_PANE_SAMPLES;
 }
 
 /// Writes down what each mask asks of its texture, and which that is, and what panes let through.
@@ -283,6 +224,18 @@ void ExactVisibility::answer(const Stage& stage, const FrameLight& asked, std::s
     answer.casterRevision = stage.casterRevision;
 }
 
+/// What all passes over tiles read, and where they answer.
+void ExactVisibility::bindTiles(gl::Pass& pass, const gl::TextureRef& visibility) const {
+    pass.bind(view_)
+        .bind("FrameBlock", frame_)
+        .bind("LightBlock", light_)
+        .bind(soup_)
+        .bind("Candidates", lists_)
+        .bind("TileLists", answer_->tiles)
+        .bind("visibility", visibility)
+        .bind("errorBound", answer_->errorBound);
+}
+
 void ExactVisibility::findCandidates(const Stage& stage, const AreaLight& light,
                                      const gl::TextureRef& visibility, bool keeps) {
     LightAnswer& answer = *answer_;
@@ -295,31 +248,25 @@ void ExactVisibility::findCandidates(const Stage& stage, const AreaLight& light,
             .bind("Weights", answer.weights)
             .dispatch(EXACT_MAX_ROWS / 8, EXACT_MAX_ROWS / 8, latticesFor(light).size());
     }
-    const auto pass = timers_.pass("exact/candidates");
+    const auto timed = timers_.pass("exact/candidates");
     busy_.reserve(sizeof(BusyTiles) + answer.tileCount * sizeof(std::uint32_t), "exact/busy tiles");
     busy_.clear(0, sizeof(BusyTiles));
     lists_.reserve(answer.tileCount * std::size_t(tileCapacity_) * sizeof(std::uint32_t), "exact/candidates");
     const bool haveCastersChanged = stage.casterRevision != answer.casterRevision;
     constexpr std::size_t groupTiles = 32;
-    gl::Pass(candidates_)
+    gl::Pass pass(candidates_);
+    bindTiles(pass, visibility);
+    pass
         .constants(ExactKeeping{
             .keeps = bool32(keeps),
             .changedBoxes = keeps && haveCastersChanged ? int(soup_.changedBoxes().size() / 2) : 0,
             .standInShift = usesStandIns_ ? standInShift(light, latticesFor(light), weight_ != 0) : 0})
-        .bind(view_)
-        .bind("FrameBlock", frame_)
-        .bind("LightBlock", light_)
-        .bind(soup_)
-        .bind("Candidates", lists_)
         .bind("Tiles", tiles_.bounds())
-        .bind("TileLists", answer.tiles)
         .bind("TileRevisions", receivers_.tileRevisions())
         .bind("Weights", answer.weights)
         .bind("MadeAt", answer.madeAt)
         .bind("ChangedBoxes", changedBoxes_)
         .bind("Busy", busy_)
-        .bind("visibility", visibility)
-        .bind("errorBound", answer.errorBound)
         .dispatch((answer.tileCount + groupTiles - 1) / groupTiles);
 }
 
@@ -329,79 +276,51 @@ void ExactVisibility::sift(const gl::TextureRef& visibility) {
     parts_.reserve(sizeof(BusyTiles) + answer_->tileCount * EXACT_TILE_PARTS * sizeof(std::uint32_t),
                    "exact/busy parts of tiles");
     parts_.clear(0, sizeof(BusyTiles));
-    gl::Pass(sift_)
-        .bind(view_)
-        .bind("FrameBlock", frame_)
-        .bind("LightBlock", light_)
-        .bind(soup_)
-        .bind("Candidates", lists_)
-        .bind("TileLists", answer_->tiles)
-        .bind("Busy", busy_)
-        .bind("Parts", parts_)
-        .bind("visibility", visibility)
-        .bind("errorBound", answer_->errorBound)
-        .dispatchIndirect(busy_);
+    gl::Pass pass(sift_);
+    bindTiles(pass, visibility);
+    pass.bind("Busy", busy_).bind("Parts", parts_).dispatchIndirect(busy_);
 }
 
 void ExactVisibility::resolve(const Stage& stage, const AreaLight& light, const ExactLight& described,
                               const gl::TextureRef& visibility) {
-    const std::vector<LightLattice>& lattices = latticesFor(light);
-    std::size_t rows = 0;
-    for (const LightLattice& lattice : lattices) rows = std::max(rows, lattice.validRows.size());
-    // A turn for each group of alpha textures, for each lattice, in each of a cone's windows, for all that
-    // lets no light through and then for some samples after the others.
-    const int groups =
-        std::max(int(maskTextures_.size() + EXACT_GROUP_TEXTURES - 1) / EXACT_GROUP_TEXTURES, 1);
+    const RoundPlan plan = planRounds(soup_, light, described, latticesFor(light), stage.frame.eye,
+                                      maskTextures_.size(), roundWork_);
     const bool isCone = light.shape == LightShape::sphere || light.shape == LightShape::distant;
-    const int windows = int(lattices.size()) * (mayFillHalfTheSky(light) ? 6 : 1);
-    const int paneSteps = paneStepsFor(lattices);
-    int turnRounds = roundsFor(lattices, countSpecial(stage.frame.eye, described, light.shape));
-    int rounds = windows * turnRounds;
-    if (paneSteps > 0) rounds += windows * paneSteps * roundsForPanes(rows);
-    if (groups > 1) {  // all turns take the same time
-        turnRounds = std::max(turnRounds, paneSteps > 0 ? roundsForPanes(rows) : 0);
-        rounds = windows * (1 + paneSteps) * groups * turnRounds;
-    }
     const int cells = cellsFor(light);
     const bool isUneven = isCone || weight_ != 0 || light.radianceTexture != 0 || cells > 1;
     const auto pixels =
         std::size_t(answer_->errorBound.width_px()) * std::size_t(answer_->errorBound.height_px());
-    const std::size_t stateWords = EXACT_STATE_WORDS + rows + (paneSteps > 0 ? EXACT_PANE_WORDS : 0);
+    const std::size_t stateWords =
+        EXACT_STATE_WORDS + plan.rows + (plan.paneSteps > 0 ? EXACT_PANE_WORDS : 0);
     states_.reserve(pixels * stateWords * sizeof(std::uint32_t), "exact/states");
-    rounds_.reserve(std::size_t(rounds + 1) * 3 * sizeof(std::uint32_t), "exact/rounds");
+    rounds_.reserve(std::size_t(plan.rounds + 1) * 3 * sizeof(std::uint32_t), "exact/rounds");
 
     const auto timed = timers_.pass("exact/resolve");
     rounds_.clear();
     const gl::Buffer& busy = stage.view.isOfPoints ? parts_ : busy_;
-    gl::Pass pass(
-        resolveFor({int(rows), stage.view.isOfPoints, soup_.maskedCount() > 0, isUneven, cells, paneSteps}));
+    gl::Pass pass(resolveFor(
+        {int(plan.rows), stage.view.isOfPoints, soup_.maskedCount() > 0, isUneven, cells, plan.paneSteps}));
+    bindTiles(pass, visibility);
     pass.inOrder()
-        .bind(view_)
-        .bind("FrameBlock", frame_)
-        .bind("LightBlock", light_)
-        .bind(soup_)
-        .bind("Candidates", lists_)
-        .bind("TileLists", answer_->tiles)
         .bind("Busy", busy)
         .bind("Weights", answer_->weights)
         .bind("radiance", gl::TextureRef{.name = light.radianceTexture})
         .bind("States", states_)
-        .bind("Rounds", rounds_)
-        .bind("visibility", visibility)
-        .bind("errorBound", answer_->errorBound);
+        .bind("Rounds", rounds_);
     if (cells > 1) pass.bind("cells", answer_->cells);
     if (pass.has("Masks")) pass.bind("Masks", masks_);
     if (pass.has("Panes")) pass.bind("Panes", panes_);
     bindMaskGroup(pass, maskTextures_, 0);
-    ExactRound round{.number = 0, .work = roundWork_, .turnRounds = turnRounds, .groups = groups};
+    ExactRound round{.number = 0, .work = roundWork_, .turnRounds = plan.turnRounds, .groups = plan.groups};
     pass.constants(round).dispatchIndirect(busy);
     const bool looks = stage.view.isOfPoints && device_.isSoftware;
     for (int turn = 0;;) {
         ++round.number;
-        if (looks) round.number = askedRound(round.number, rounds);
-        if (round.number >= rounds) break;
-        if (groups > 1 && std::exchange(turn, round.number / turnRounds) != round.number / turnRounds)
-            bindMaskGroup(pass, maskTextures_, turn % groups);
+        if (looks) round.number = askedRound(round.number, plan.rounds);
+        if (round.number >= plan.rounds) break;
+        if (plan.groups > 1 &&
+            std::exchange(turn, round.number / plan.turnRounds) != round.number / plan.turnRounds)
+            bindMaskGroup(pass, maskTextures_, turn % plan.groups);
         // Without work groups where nobody asked for the round.
         pass.constants(round).dispatchIndirect(rounds_,
                                                3 * sizeof(std::uint32_t) * std::size_t(round.number));

@@ -79,6 +79,7 @@ class ExactVisibility final : public Technique {
 
     void prepare(const Stage& stage, const FrameInputs& frame);
     void answer(const Stage& stage, const FrameLight& light, std::size_t place);
+    void bindTiles(gl::Pass& pass, const gl::TextureRef& visibility) const;
     void findCandidates(const Stage& stage, const AreaLight& light, const gl::TextureRef& visibility,
                         bool keeps);
     void sift(const gl::TextureRef& visibility);
@@ -89,12 +90,8 @@ class ExactVisibility final : public Technique {
     LightAnswer& answerFor(std::size_t place, const View& view);
     void describeKey(const Stage& stage, const FrameLight& asked);
     bool canKeep(const Stage& stage, const FrameLight& asked, const LightAnswer& answer);
-    std::size_t countSpecial(const glm::vec3& eye, const ExactLight& light, LightShape shape) const;
     int askedRound(int next, int count) const;
-    int roundsFor(std::span<const LightLattice> lattices, std::size_t special) const;
-    int roundsForPanes(std::size_t rows) const;
     int cellsFor(const AreaLight& light) const;
-    int paneStepsFor(std::span<const LightLattice> lattices) const;
     const std::vector<LightLattice>& latticesFor(const AreaLight& light);
     void sendMasks();
 
